@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "accel/accelerator.h"
+#include "accel/embree_api.h"
+#include "accel/watertight.h"
+
+namespace lemma {
+namespace {
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+
+bool count_memory(void* bytes, ssize_t change, bool) {
+  static_cast<std::atomic<std::int64_t>*>(bytes)->fetch_add(change);
+  return true;
+}
+
+void check(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE)
+    throw std::runtime_error(fmt::format("Embree reports error {}", static_cast<int>(error)));
+}
+
+/// Embree takes intervals closed, Lemma's are open; it has no name for a ray that starts at its own surface,
+/// so t_min 0 becomes the smallest normal number.
+RTCRay to_embree(const Ray& ray) {
+  RTCRay r{};
+  r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  r.tnear = std::max(std::nextafter(ray.t_min, infinity), std::numeric_limits<float>::min());
+  r.tfar = ray.t_max == infinity ? infinity : std::nextafter(ray.t_max, -infinity);
+  r.mask = 0xFFFFFFFFu;
+  return r;
+}
+
+/// Embree's answer to rays that are not finite is undefined.
+bool is_finite(const Ray& ray) {
+  return lemma::is_finite(ray.origin) && lemma::is_finite(ray.direction) && ray.t_min < ray.t_max;
+}
+
+class EmbreeBvh final : public Accelerator {
+ public:
+  explicit EmbreeBvh(std::span<const Triangle> triangles)
+      : triangles_(triangles), device_(rtcNewDevice(nullptr)) {
+    if (!device_) check(nullptr);
+    rtcSetDeviceMemoryMonitorFunction(device_.get(), count_memory, &bytes_);
+    scene_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    add_triangles();
+    rtcCommitScene(scene_.get());
+    check(device_.get());
+  }
+
+  std::optional<Hit> closest_hit(const Ray& ray) const override {
+    if (!is_finite(ray)) return std::nullopt;
+    RTCRayHit query{to_embree(ray), {}};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree_api::intersect(scene_.get(), query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return hit_on(ShearedRay(ray), triangles_[query.hit.primID], query.hit.primID);
+  }
+
+  bool occluded(const Ray& ray) const override {
+    if (!is_finite(ray)) return false;
+    RTCRay query = to_embree(ray);
+    embree_api::occluded(scene_.get(), query);
+    return query.tfar < 0;
+  }
+
+  std::size_t memory_bytes() const override { return static_cast<std::size_t>(bytes_.load()); }
+
+  std::string description() const override {
+    return fmt::format("Embree {} BVH, ROBUST, {} triangles", RTC_VERSION_STRING, triangles_.size());
+  }
+
+ private:
+  void add_triangles() {
+    const std::size_t count = triangles_.size();
+    if (count == 0) return;
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * count));
+    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+    if (!vertices || !indices) throw std::bad_alloc();
+    static_assert(sizeof(Triangle) == 9 * sizeof(float));
+    std::memcpy(vertices, triangles_.data(), triangles_.size_bytes());
+    for (std::uint32_t i = 0; i < 3 * count; ++i) indices[i] = i;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+  }
+
+  std::span<const Triangle> triangles_;
+  std::atomic<std::int64_t> bytes_{0};  // outlives the device, which reports to it until it is gone
+  Device device_;
+  SceneHandle scene_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Accelerator> make_embree(std::span<const Triangle> triangles,
+                                               const AcceleratorOptions&) {
+  return std::make_unique<EmbreeBvh>(triangles);
+}
+
+}  // namespace lemma

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <utility>
+
+#include "src/core/hit.h"
+#include "src/core/ray.h"
+#include "src/core/triangle.h"
+
+namespace lemma {
+
+/// A ray made ready for the watertight triangle test: coordinates permuted so that kz is the direction's
+/// largest axis, and the shear that turns the direction into (0, 0, 1). Source: Woop, Benthin, Wald,
+/// Watertight Ray/Triangle Intersection, JCGT 2(1), 2013.
+struct ShearedRay {
+  explicit ShearedRay(const Ray& ray) : origin(ray.origin), t_min(ray.t_min), t_max(ray.t_max) {
+    const Vec3& d = ray.direction;
+    const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
+    kz = x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
+    kx = (kz + 1) % 3;
+    ky = (kx + 1) % 3;
+    if (d[kz] < 0) std::swap(kx, ky);
+    sx = d[kx] / d[kz];
+    sy = d[ky] / d[kz];
+    sz = 1 / d[kz];
+  }
+
+  Vec3 origin;
+  float t_min, t_max;
+  float sx, sy, sz;
+  int kx, ky, kz;
+};
+
+namespace watertight {
+
+/// A vertex in the ray's sheared coordinates: it depends on ray and vertex alone, so triangles that share a
+/// vertex see the same bits.
+struct Vertex {
+  float x, y, z;
+};
+
+inline Vertex shear(const ShearedRay& ray, const Vec3& v) {
+  const Vec3 a = v - ray.origin;
+  return {a[ray.kx] - ray.sx * a[ray.kz], a[ray.ky] - ray.sy * a[ray.kz], a[ray.kz]};
+}
+
+/// b.x c.y - b.y c.x. The products of two floats are exact in double and one rounding follows, so the sign is
+/// exact, 0 only if exactly 0, and reversing the edge negates it: neighbours never both miss.
+inline double edge(const Vertex& b, const Vertex& c) {
+  return static_cast<double>(b.x) * c.y - static_cast<double>(b.y) * c.x;
+}
+
+/// Twice the sheared area that each vertex weighs with, and their sum.
+struct Weights {
+  double u, v, w, sum;
+};
+
+inline Weights weights(const Vertex& a, const Vertex& b, const Vertex& c) {
+  const double u = edge(c, b), v = edge(a, c), w = edge(b, a);
+  return {u, v, w, u + v + w};
+}
+
+inline float distance(const ShearedRay& ray, const Weights& e, const Vertex& a, const Vertex& b,
+                      const Vertex& c) {
+  return static_cast<float>(ray.sz * (e.u * a.z + e.v * b.z + e.w * c.z) / e.sum);
+}
+
+}  // namespace watertight
+
+/// The watertight test of one triangle, both sides. On a hit with t in (ray.t_min, t_max] that is nearer than
+/// `best`, or as near with a lower index, replaces `best` and says true. The shear rounds each vertex once,
+/// the same for all its triangles: a mesh may be moved by a rounding error, but never torn. The edge
+/// functions' signs are exact (edge), so a ray through a closed mesh hits it, also through edges and
+/// vertices. t errs by at most kPlaneError (src/core/error_bound.h) units of u M / cos.
+inline bool intersect(const ShearedRay& ray, const Triangle& triangle, std::uint32_t index, Hit& best) {
+  using namespace watertight;
+  const Vertex a = shear(ray, triangle.v0), b = shear(ray, triangle.v1), c = shear(ray, triangle.v2);
+  const Weights e = weights(a, b, c);
+  if ((e.u < 0 || e.v < 0 || e.w < 0) && (e.u > 0 || e.v > 0 || e.w > 0)) return false;
+  if (e.sum == 0) return false;
+  const float t = distance(ray, e, a, b, c);
+  if (!(t > ray.t_min && (t < best.t || (t == best.t && index < best.triangle)))) return false;
+  best = {t, index, static_cast<float>(e.v / e.sum), static_cast<float>(e.w / e.sum)};
+  return true;
+}
+
+/// The hit on a triangle that another test has found: t and barycentric coordinates as intersect() computes
+/// them, moved onto the triangle where the ray passes it by a rounding error.
+inline Hit hit_on(const ShearedRay& ray, const Triangle& triangle, std::uint32_t index) {
+  using namespace watertight;
+  const Vertex a = shear(ray, triangle.v0), b = shear(ray, triangle.v1), c = shear(ray, triangle.v2);
+  const Weights e = weights(a, b, c);
+  if (e.sum == 0) return {ray.sz * a.z, index, 0, 0};  // seen edge-on: any of its points will do
+  const float b1 = std::clamp(static_cast<float>(e.v / e.sum), 0.0f, 1.0f);
+  const float b2 = std::clamp(static_cast<float>(e.w / e.sum), 0.0f, 1.0f - b1);
+  return {distance(ray, e, a, b, c), index, b1, b2};
+}
+
+/// The `best` before any triangle was tested: hits count below t_max, and t == t_max loses to no index.
+inline Hit no_hit(const ShearedRay& ray) {
+  return {ray.t_max, 0, 0, 0};
+}
+
+}  // namespace lemma

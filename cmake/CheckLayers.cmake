@@ -1,0 +1,45 @@
+# cmake -P script: every `#include "..."` of FILES (in the tree at ROOT) must lie in one of the folders VISIBLE, and
+# each third-party library may be included by the files that wrap it only. Touches STAMP when all is well.
+
+cmake_minimum_required(VERSION 3.25)
+
+# Library header pattern, then the files allowed to include it.
+set(wrapped
+    "<embree[34]/" "^accel/embree_[a-z]+\\.(h|cpp)$"
+    "<tiny_obj_loader" "^src/scene/"
+    "<pugixml" "^src/scene/"
+    "<OpenImageIO/" "^src/(render|shading)/"
+    "<CLI/" "^src/app/"
+    "<nlohmann/" "^src/app/"
+    "<(tbb|oneapi)/" "^src/core/parallel\\.cpp$")
+
+function(check_project_include file header)
+  cmake_path(GET header PARENT_PATH folder)
+  if(NOT folder IN_LIST VISIBLE)
+    message(FATAL_ERROR "${file}: includes \"${header}\", which its layer may not see.\n"
+                        "  It may include: ${VISIBLE}. The order of the layers is in CMakeLists.txt.")
+  endif()
+endfunction()
+
+function(check_library_include file line)
+  set(rules ${wrapped})
+  while(rules)
+    list(POP_FRONT rules header owner)
+    if(line MATCHES "${header}" AND NOT file MATCHES "${owner}")
+      message(FATAL_ERROR "${file}: ${line}: this library is wrapped by the files ${owner} alone")
+    endif()
+  endwhile()
+endfunction()
+
+foreach(path IN LISTS FILES)
+  cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${ROOT} OUTPUT_VARIABLE file)
+  file(STRINGS ${path} includes REGEX "^[ \t]*#[ \t]*include")
+  foreach(line IN LISTS includes)
+    if(line MATCHES "\"([^\"]+)\"")
+      check_project_include(${file} ${CMAKE_MATCH_1})
+    else()
+      check_library_include(${file} "${line}")
+    endif()
+  endforeach()
+endforeach()
+file(TOUCH ${STAMP})

@@ -1,0 +1,16 @@
+# Flags shared by all targets: warnings, floating-point rules, sanitizers.
+add_library(lemma_compiler INTERFACE)
+target_compile_options(lemma_compiler INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wpedantic)
+if(LEMMA_WARNINGS_AS_ERRORS)
+  target_compile_options(lemma_compiler INTERFACE -Werror)
+endif()
+
+# A fused multiply-add that the compiler picks for one of two equal expressions breaks the watertight test
+# (accel/watertight.h), so contraction is off for all code; no flag of -ffast-math is allowed either, except the
+# two that change no result: nothing here reads errno or floating-point exceptions.
+add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math)
+
+if(LEMMA_SANITIZE)
+  add_compile_options(-fsanitize=${LEMMA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${LEMMA_SANITIZE})
+endif()

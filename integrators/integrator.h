@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "integrators/roulette.h"
+#include "integrators/tracer.h"
+#include "src/core/named.h"
+#include "src/core/sampler.h"
+#include "src/lights/light_sampler.h"
+#include "src/scene/scene.h"
+
+namespace lemma {
+
+/// All that light transport reads; it never changes while rendering.
+struct World {
+  const Scene& scene;
+  const Accelerator& accel;
+  const LightSampler& lights;
+};
+
+/// Estimates the radiance along a camera ray. Paths end at emitters, which do not reflect (the report's
+/// rule), unless options say otherwise.
+class Integrator {
+ public:
+  Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+  virtual ~Integrator() = default;
+
+  /// Unbiased estimate of the radiance [W m^-2 sr^-1] that arrives at ray.origin against ray.direction.
+  /// @param ray     unit direction
+  /// @param first   what the ray hits
+  /// @param tracer  counts the rays; one a thread
+  /// @param random  the numbers of this sample
+  [[nodiscard]] virtual Rgb radiance(const Ray& ray, const std::optional<Hit>& first, const World& world,
+                                     Tracer& tracer, Sampler& random) const = 0;
+};
+
+struct IntegratorOptions {
+  Roulette roulette = Roulette::throughput;
+  int max_depth = kLastResortDepth;  // scattering events on a path at most: 1 is direct light
+  bool emitters_reflect = false;     // emitters also reflect, as their materials say
+
+  /// Deep enough that cutting there is no matter of choice but of ending at all: a closed box of albedo 1.
+  static constexpr int kLastResortDepth = 1000;
+};
+
+using IntegratorFactory = std::unique_ptr<const Integrator> (*)(const Model&, const IntegratorOptions&);
+
+/// All integrators by the name users give them.
+[[nodiscard]] std::span<const Named<IntegratorFactory>> integrators();
+
+/// The integrator Estimator<M> for the parts of the model that a scene needs: they are constants of its code.
+template <template <Model> class Estimator>
+[[nodiscard]] std::unique_ptr<const Integrator> for_model(const Model& model,
+                                                          const IntegratorOptions& options) {
+  if (model.specular && model.smooth_normals) return std::make_unique<Estimator<Model{true, true}>>(options);
+  if (model.specular) return std::make_unique<Estimator<Model{true, false}>>(options);
+  if (model.smooth_normals) return std::make_unique<Estimator<Model{false, true}>>(options);
+  return std::make_unique<Estimator<Model{false, false}>>(options);
+}
+
+}  // namespace lemma

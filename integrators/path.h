@@ -1,0 +1,60 @@
+#pragma once
+
+#include "integrators/emission.h"
+#include "integrators/vertex.h"
+
+namespace lemma {
+
+/// A path from the camera that goes on by BRDF samples. Emitted light is found in two ways, by the direction
+/// the path goes on with and by a light sample at each vertex; a Technique says with which weights they
+/// count. The estimate is unbiased if the two weights of every direction sum to 1. A Technique has
+///   kSamplesLights                   whether light samples are taken at all
+///   light_weight(light, brdf)        of a light sample, given both densities of its direction
+///   brdf_weight(brdf, light)         of an emitter met at depth > 1; light() gives the density of light
+///   sampling
+template <Model M, class Technique>
+class PathIntegrator final : public Integrator {
+ public:
+  explicit PathIntegrator(const IntegratorOptions& options) : options_(options) {}
+
+  Rgb radiance(const Ray& camera_ray, const std::optional<Hit>& first, const World& world, Tracer& tracer,
+               Sampler& random) const override {
+    Rgb radiance, throughput{1, 1, 1};
+    Ray ray = camera_ray;
+    std::optional<Hit> hit = first;
+    LightQuery query;        // of the vertex that the ray left ...
+    PdfSolidAngle pdf_brdf;  // ... in a direction of this density
+    for (int depth = 1; hit; ++depth) {
+      if (const Emitter* emitter = emitter_at(world.scene, *hit)) {
+        // No light sample could have found what the camera sees.
+        const float weight =
+            depth == 1 ? 1.0f
+                       : Technique::brdf_weight(pdf_brdf, [&] { return light_pdf(world, query, *hit); });
+        radiance += throughput * emitted(*emitter, ray.origin) * weight;
+        if (!options_.emitters_reflect) break;
+      }
+      if (depth > options_.max_depth) {
+        ++tracer.counts.paths_cut;
+        break;
+      }
+      const Vertex<M> vertex(world.scene, ray, *hit);
+      if constexpr (Technique::kSamplesLights) {
+        query = world.lights.query(vertex.origin());
+        radiance += throughput * light_sample<Technique>(world, vertex, query, tracer, random);
+      }
+      const std::optional<ScatterSample> next = vertex.sample(random);
+      if (!next) break;
+      throughput *= next->weight;
+      if (!survives(options_.roulette, depth, throughput, random)) break;
+      ray = {vertex.origin(), next->wi};
+      pdf_brdf = next->pdf;
+      hit = tracer.closest_hit(ray);
+    }
+    return radiance;
+  }
+
+ private:
+  IntegratorOptions options_;
+};
+
+}  // namespace lemma

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "accel/accelerator.h"
+#include "integrators/integrator.h"
+#include "src/render/render.h"
+#include "src/render/tone_map.h"
+#include "src/scene/load_scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lemma {
+
+enum class ProgressStyle { automatic, bar, plain, off };
+
+/// Everything `lemma render` can be told.
+struct RenderOptions {
+  std::filesystem::path scene;
+  std::vector<std::filesystem::path> outputs;
+  std::filesystem::path stats;  // empty: none
+  Named<AcceleratorFactory> accel = accelerators().front();
+  AcceleratorOptions accel_options;
+  Named<IntegratorFactory> integrator = integrators().front();
+  IntegratorOptions integrator_options;
+  Named<LightSamplerFactory> lights = light_samplers().front();
+  LoadOptions load;
+  RenderSettings settings;
+  std::optional<std::pair<int, int>> size;  // width, height in place of the scene's
+  int threads = 0;                          // 0: all
+  ToneMap tone_map;
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+/// Adds the command and binds its options to `options`.
+CLI::App* add_render_command(CLI::App& app, RenderOptions& options);
+
+}  // namespace lemma

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "src/app/exit_code.h"
+#include "src/app/options.h"
+
+namespace lemma {
+
+/// `lemma render`: loads, builds, renders, writes.
+/// @throw SceneError, ImageFileError
+[[nodiscard]] ExitCode run_render(const RenderOptions& options);
+
+}  // namespace lemma

@@ -1,0 +1,22 @@
+#include "src/lights/light_sampler.h"
+
+namespace lemma {
+
+// The table of strategies: a new one is a file that defines make_ID, and a line here.
+#define LEMMA_LIGHT_SAMPLERS(entry)                                                      \
+  entry(power, "power", "triangle by radiance x area, point by area")                    \
+      entry(solid_angle, "solid-angle",                                                  \
+            "triangle by radiance x solid angle seen from the point, direction uniform") \
+          entry(radiance_area, "radiance-area",                                          \
+                "light by radiance, triangle and point by area (the report's A.1)")
+
+#define LEMMA_DECLARE(id, name, help) std::unique_ptr<const LightSampler> make_##id(std::span<const Emitter>);
+LEMMA_LIGHT_SAMPLERS(LEMMA_DECLARE)
+
+std::span<const Named<LightSamplerFactory>> light_samplers() {
+#define LEMMA_ENTRY(id, name, help) {name, make_##id, help},
+  static constexpr Named<LightSamplerFactory> table[] = {LEMMA_LIGHT_SAMPLERS(LEMMA_ENTRY)};
+  return table;
+}
+
+}  // namespace lemma

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "src/core/named.h"
+#include "src/core/pdf.h"
+#include "src/core/sampler.h"
+#include "src/lights/emitter.h"
+
+namespace lemma {
+
+/// A point on an emitter, chosen from a reference point x.
+struct LightSample {
+  Vec3 to_light;            // from x to the point on the emitter [scene units]
+  Vec3 wi;                  // the same, unit
+  PdfSolidAngle pdf;        // probability of the emitter times density of the direction on it; > 0
+  Rgb radiance;             // emitted towards x
+  float visible_until = 1;  // what blocks the ray x + t to_light hits at t in (0, visible_until)
+};
+
+/// What a strategy needs to know about a reference point for both sampling and density: found once a point.
+struct LightQuery {
+  Vec3 x;
+  double total_weight = 0;  // of all emitters as seen from x, where the strategy weighs them so; else unused
+};
+
+/// Chooses points on emitters. The technique is: choose an emitter, then a direction on it; it counts only if
+/// that very emitter is what x sees there. The density of a direction is therefore that of the one emitter it
+/// hits first, without a sum over emitters behind it, and the weights of multiple importance sampling sum to
+/// 1 also where emitters overlap. All densities end in solid angle about x.
+class LightSampler {
+ public:
+  LightSampler() = default;
+  LightSampler(const LightSampler&) = delete;
+  LightSampler& operator=(const LightSampler&) = delete;
+  virtual ~LightSampler() = default;
+
+  [[nodiscard]] virtual LightQuery query(const Vec3& x) const = 0;
+
+  /// @return nothing if the emitter chosen does not emit towards x
+  [[nodiscard]] virtual std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const = 0;
+
+  /// Density with which sample() returns the direction from at.x to the point `y` of the emitter.
+  /// @param y  on the emitter, up to rounding
+  [[nodiscard]] virtual PdfSolidAngle pdf(const LightQuery& at, std::uint32_t emitter,
+                                          const Vec3& y) const = 0;
+};
+
+using LightSamplerFactory = std::unique_ptr<const LightSampler> (*)(std::span<const Emitter>);
+
+/// All strategies by the name users give them.
+[[nodiscard]] std::span<const Named<LightSamplerFactory>> light_samplers();
+
+}  // namespace lemma

@@ -1,0 +1,105 @@
+#include "src/render/tile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lemma {
+namespace {
+
+constexpr int kTileSize = 16;
+constexpr std::uint32_t kTimedSampleStride = 64;  // one sample of a row in so many is timed
+
+bool is_radiance(const Rgb& c) {
+  return c.r >= 0 && c.g >= 0 && c.b >= 0 && std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+}
+
+/// Renders the samples of one row of a tile: one sample of every pixel at a time, so that the camera rays can
+/// be traced together.
+class TileRow {
+ public:
+  TileRow(const Camera& camera, const RenderSettings& settings, const Tile& tile, int y)
+      : camera_(camera), settings_(settings), tile_(tile), y_(y) {}
+
+  void render_sample(std::uint32_t sample, const World& world, const Integrator& integrator, Tracer& tracer,
+                     TileResult& result) {
+    const auto count = static_cast<std::size_t>(tile_.width);
+    std::array<Ray, kTileSize> rays;
+    std::array<std::optional<Sampler>, kTileSize> random;
+    std::array<std::optional<Hit>, kTileSize> hits;
+    for (std::size_t i = 0; i < count; ++i) {
+      const int x = tile_.x + static_cast<int>(i);
+      random[i].emplace(settings_.seed, pixel_index(x), sample);
+      const Vec2 u = random[i]->next_2d();
+      rays[i] = camera_.ray_through(static_cast<float>(x) + u.x, static_cast<float>(y_) + u.y);
+    }
+    tracer.closest_hits({rays.data(), count}, {hits.data(), count});
+    for (std::size_t i = 0; i < count; ++i) {
+      const Rgb value = integrator.radiance(rays[i], hits[i], world, tracer, *random[i]);
+      if (is_radiance(value)) {
+        sums_[i].add(value);
+        ++valid_[i];
+      } else {
+        report_invalid({tile_.x + static_cast<int>(i), y_, sample, value}, result);
+      }
+    }
+  }
+
+  void store(Image& image) const {
+    for (int i = 0; i < tile_.width; ++i) {
+      const auto pixel = static_cast<std::size_t>(i);
+      image.at(tile_.x + i, y_) = sums_[pixel].mean(valid_[pixel]);
+    }
+  }
+
+ private:
+  /// Up to 65536 x 65536 pixels.
+  [[nodiscard]] std::uint32_t pixel_index(int x) const {
+    return static_cast<std::uint32_t>(y_) * static_cast<std::uint32_t>(camera_.width()) +
+           static_cast<std::uint32_t>(x);
+  }
+
+  static void report_invalid(const InvalidSample& invalid, TileResult& result) {
+    ++result.invalid_samples;
+    if (result.first_invalid.size() < RenderResult::kReportedInvalid) result.first_invalid.push_back(invalid);
+  }
+
+  const Camera& camera_;
+  const RenderSettings& settings_;
+  const Tile& tile_;
+  int y_;
+  std::array<PixelSum, kTileSize> sums_{};
+  std::array<std::uint64_t, kTileSize> valid_{};
+};
+
+}  // namespace
+
+std::vector<Tile> tiles_of(int width, int height) {
+  std::vector<Tile> tiles;
+  for (int y = 0; y < height; y += kTileSize) {
+    for (int x = 0; x < width; x += kTileSize) {
+      tiles.push_back({x, y, std::min(kTileSize, width - x), std::min(kTileSize, height - y)});
+    }
+  }
+  return tiles;
+}
+
+TileResult render_tile(const World& world, const Integrator& integrator, const Camera& camera,
+                       const RenderSettings& settings, const Tile& tile, Image& image) {
+  TileResult result;
+  Tracer tracer(world.accel);
+  for (int y = tile.y; y < tile.y + tile.height; ++y) {
+    TileRow row(camera, settings, tile, y);
+    for (std::uint32_t sample = 0; sample < settings.spp; ++sample) {
+      // Rows start at different samples, so that an image of few samples is timed as well.
+      const bool timed = (sample + static_cast<std::uint32_t>(y)) % kTimedSampleStride == 0;
+      const Tracer::Timing timing(tracer, timed);
+      row.render_sample(sample, world, integrator, tracer, result);
+    }
+    row.store(image);
+  }
+  result.counts = tracer.counts;
+  return result;
+}
+
+}  // namespace lemma

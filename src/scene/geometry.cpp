@@ -1,0 +1,102 @@
+#include "src/scene/geometry.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "src/scene/numbers.h"
+
+namespace lemma {
+namespace {
+
+/// Vertex normals this close to the geometric normal are the same one, printed with six digits: a coordinate
+/// is then off by 5e-6 of its size, and the normal of a face 1/40 as high as its coordinates by 2e-4.
+constexpr double kFlatDistance = 2e-4;
+
+Triangle shape_of(const ObjFile& obj, const ObjTriangle& t) {
+  return {obj.vertices[t.vertex[0]], obj.vertices[t.vertex[1]], obj.vertices[t.vertex[2]]};
+}
+
+bool in_range(const Vec3& v) {
+  return is_finite(v) && max_norm(v) <= kMaxCoordinate;
+}
+
+bool in_range(const Triangle& t) {
+  return in_range(t.v0) && in_range(t.v1) && in_range(t.v2);
+}
+
+/// Unit normal that the file gives a corner; 0 if none, or none that has a direction.
+Vec3d given_normal(const ObjFile& obj, std::uint32_t index) {
+  if (index == kNoNormal) return Vec3d(0);
+  const Vec3 normal = obj.normals[index];
+  if (!is_finite(normal) || normal == Vec3(0)) return Vec3d(0);
+  return normalize(Vec3d(normal));
+}
+
+/// The normals of a triangle as its vertices see them.
+struct VertexNormals {
+  std::array<Vec3, 3> normals;  // unit; the geometric normal, on their side, where the file gives none
+  bool oppose_winding = false;  // their mean points against the normal of the winding
+  bool flat = true;             // all are the geometric normal, on either side
+};
+
+VertexNormals normals_of(const ObjFile& obj, const ObjTriangle& t, const Triangle& shape) {
+  std::array<Vec3d, 3> given;
+  Vec3d sum(0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    given[k] = given_normal(obj, t.normal[k]);
+    sum += given[k];
+  }
+
+  VertexNormals result;
+  Vec3d geometric = normalize(area_vector(shape));
+  result.oppose_winding = dot(sum, geometric) < 0;
+  if (result.oppose_winding) geometric = -geometric;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (given[k] == Vec3d(0)) given[k] = geometric;
+    result.normals[k] = Vec3(given[k]);
+    const Vec3d off = given[k] - geometric, off_behind = given[k] + geometric;
+    result.flat &= std::min(dot(off, off), dot(off_behind, off_behind)) <= kFlatDistance * kFlatDistance;
+  }
+  return result;
+}
+
+/// The triangle that emits to the side its vertex normals point to.
+Triangle facing(Triangle shape, const VertexNormals& normals) {
+  if (normals.oppose_winding) std::swap(shape.v1, shape.v2);
+  return shape;
+}
+
+}  // namespace
+
+void build_geometry(const ObjFile& obj, const MaterialTable& materials, const LightList& lights, Scene& scene,
+                    LoadReport& report) {
+  report.triangles_read = obj.triangles.size();
+  for (const ObjTriangle& t : obj.triangles) {
+    const Triangle shape = shape_of(obj, t);
+    if (!in_range(shape)) {
+      ++report.dropped_non_finite;
+      continue;
+    }
+    if (area_vector(shape) == Vec3d(0)) {
+      ++report.dropped_zero_area;
+      continue;
+    }
+    const VertexNormals normals = normals_of(obj, t, shape);
+    Facet facet{.material = materials.of_obj[t.material]};
+    if (const std::uint32_t light = lights.of_material[facet.material]; light != kNoLight) {
+      facet.emitter = static_cast<std::uint32_t>(scene.emitters.size());
+      scene.emitters.push_back({.shape = facing(shape, normals),
+                                .radiance = lights.lights[light].radiance,
+                                .triangle = static_cast<std::uint32_t>(scene.triangles.size()),
+                                .light = light});
+    } else if (!normals.flat) {
+      scene.needs.model.smooth_normals = true;
+    }
+    scene.triangles.push_back(shape);
+    scene.facets.push_back(facet);
+    scene.normals.push_back(normals.normals);
+  }
+  if (!scene.needs.model.smooth_normals) decltype(scene.normals)().swap(scene.normals);
+}
+
+}  // namespace lemma

@@ -1,0 +1,60 @@
+#include "src/scene/load_scene.h"
+
+#include <fmt/format.h>
+
+#include "src/scene/geometry.h"
+#include "src/scene/light_list.h"
+#include "src/scene/material_table.h"
+#include "src/scene/read_obj.h"
+#include "src/scene/read_xml.h"
+#include "src/scene/scene_files.h"
+
+namespace lemma {
+namespace {
+
+/// Of each material, whether there is a triangle with it that reflects.
+std::vector<bool> find_reflecting(const Scene& scene, std::size_t materials) {
+  std::vector<bool> reflects(materials, false);
+  for (const Facet& facet : scene.facets) {
+    if (facet.emitter == kNoEmitter) reflects[facet.material] = true;
+  }
+  return reflects;
+}
+
+bool any_specular(const std::vector<Material>& materials, const std::vector<bool>& reflects) {
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (reflects[i] && !is_black(materials[i].ks)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
+  LoadedScene loaded;
+  auto& [scene, report] = loaded;
+  const SceneFiles files = find_scene_files(path);
+  report.xml = files.xml;
+  report.obj = files.obj;
+  const XmlScene xml = read_xml(files.xml, report.warnings);
+  const ObjFile obj = read_obj(files.obj, report.warnings);
+  report.mtl = find_mtl_files(files.obj, obj.libraries, report.warnings);
+  const MaterialTable table = read_materials(report.mtl, obj.materials, report.warnings);
+  const LightList lights = find_lights(xml, table.materials, report.warnings);
+
+  scene.view = xml.view;
+  build_geometry(obj, table, lights, scene, report);
+  if (scene.triangles.empty()) {
+    throw SceneError({files.obj},
+                     fmt::format("no triangle can be rendered, of {} read", report.triangles_read),
+                     "the faces need three corners that are not in line");
+  }
+  number_lights(lights, table.materials, scene, report.warnings);
+  const std::vector<bool> reflects = find_reflecting(scene, table.materials.size());
+  if (scene.emitters.empty()) throw no_emitters({files.xml}, table.materials, reflects);
+  scene.materials = make_materials(table.materials, reflects, options.phong_norm, report.warnings);
+  scene.needs.model.specular = any_specular(scene.materials, reflects);
+  return loaded;
+}
+
+}  // namespace lemma

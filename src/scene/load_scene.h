@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/scene/scene.h"
+
+namespace lemma {
+
+struct LoadOptions {
+  PhongNorm phong_norm = PhongNorm::n_plus_1;
+};
+
+/// What was read and what became of it.
+struct LoadReport {
+  std::filesystem::path xml, obj;
+  std::vector<std::filesystem::path> mtl;
+  std::size_t triangles_read = 0;      // polygons as fans
+  std::size_t dropped_zero_area = 0;   // triangles whose area is exactly 0
+  std::size_t dropped_non_finite = 0;  // triangles with a vertex that is NaN, infinite or beyond 1e18
+  std::vector<std::string> warnings;   // each "file[:line[:column]]: warning: what"
+};
+
+struct LoadedScene {
+  Scene scene;
+  LoadReport report;
+};
+
+/// Reads a scene of the course format: an XML file (camera, lights by material name) beside an OBJ and its
+/// MTL.
+/// @param path  the XML, the OBJ, or the folder that holds both
+/// @throw SceneError if there is nothing that can be rendered
+[[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// One line: files, counts, lights, what was dropped.
+[[nodiscard]] std::string describe(const LoadedScene& loaded);
+
+}  // namespace lemma

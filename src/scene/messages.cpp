@@ -1,0 +1,30 @@
+#include "src/scene/messages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lemma {
+
+void warn(Warnings& warnings, const FilePosition& where, std::string_view what) {
+  warnings.push_back(fmt::format("{}: warning: {}", to_string(where), what));
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  std::string shown(text.substr(0, kLongest));
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  return fmt::format("\"{}{}\"", shown, text.size() > kLongest ? "..." : "");
+}
+
+std::string join_names(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 8;
+  const std::size_t shown = std::min(kShown, names.size());
+  std::string list =
+      fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+  if (shown < names.size()) list += fmt::format(" and {} more", names.size() - shown);
+  return list;
+}
+
+}  // namespace lemma

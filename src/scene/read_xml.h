@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/core/rgb.h"
+#include "src/scene/camera.h"
+#include "src/scene/messages.h"
+
+namespace lemma {
+
+/// A light as the XML gives it: all faces of one material.
+struct XmlLight {
+  std::string material;
+  Rgb radiance;  // >= 0
+  FilePosition where;
+};
+
+struct XmlScene {
+  CameraView view;
+  std::vector<XmlLight> lights;  // each material once, in file order
+};
+
+/// Reads camera and lights. A property may be an attribute (fovy="40"), a child with a value
+/// (<fovy value="40"/>, <eye value="0, 1, 5"/>), a child with x, y, z, or a child with text; there may be no
+/// root element, or a <scene> or <root>. Elements and attributes that are not known are warned of. Of two
+/// lights with the same material the later one counts, with a warning.
+/// @throw SceneError with line and column (in bytes) for XML that is not well-formed, without camera, or with
+///        values that make no image
+[[nodiscard]] XmlScene read_xml(const std::filesystem::path& path, Warnings& warnings);
+
+}  // namespace lemma

@@ -1,0 +1,171 @@
+#include "src/scene/scene_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "src/scene/ascii.h"
+
+namespace lemma {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+bool has_extension(const fs::path& path, std::string_view extension) {
+  return lower_case(path.extension().string()) == extension;
+}
+
+/// All files of a folder in order of their names, without hidden ones. Nothing if it cannot be read.
+std::vector<fs::path> list_files(const fs::path& folder, std::string_view extension) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::directory_iterator entry(folder.empty() ? "." : folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const fs::path name = entry->path().filename();
+    const bool hidden = name.string().starts_with('.');
+    if (!hidden && has_extension(name, extension) && is_file(folder / name)) files.push_back(folder / name);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string names_of(const std::vector<fs::path>& files) {
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(file.filename().string());
+  return join_names(names);
+}
+
+SceneError none_found(const fs::path& where, std::string_view extension) {
+  if (extension == ".xml") {
+    return {{where},
+            "there is no XML file with camera and lights",
+            "write one beside the OBJ, with the same stem: <camera width=\"512\" height=\"512\" fovy=\"40\"> "
+            "<eye x=\"0\" y=\"1\" z=\"5\"/> <lookat x=\"0\" y=\"1\" z=\"0\"/> <up x=\"0\" y=\"1\" z=\"0\"/> "
+            "</camera> "
+            "<light mtlname=\"light\" radiance=\"17, 12, 4\"/>"};
+  }
+  return {{where}, "there is no OBJ file with the geometry", "put it beside the XML"};
+}
+
+/// The only file of a kind in a folder.
+/// @param where  what to blame if there is none or several
+fs::path only_file(const fs::path& folder, std::string_view extension, const fs::path& where) {
+  const std::vector<fs::path> files = list_files(folder, extension);
+  if (files.empty()) throw none_found(where, extension);
+  if (files.size() > 1) {
+    throw SceneError({where},
+                     fmt::format("which {} file? There are {}", extension.substr(1), names_of(files)),
+                     "name the XML, and give the OBJ the same stem");
+  }
+  return files.front();
+}
+
+/// The file of another kind that goes with `file`.
+fs::path companion(const fs::path& file, std::string_view extension) {
+  const fs::path folder = file.parent_path();
+  for (const fs::path& other : list_files(folder, extension)) {
+    if (other.stem() == file.stem()) return other;
+  }
+  return only_file(folder, extension, file);
+}
+
+/// A file that a name of the OBJ led to.
+struct FoundFile {
+  fs::path path;
+  bool as_written = false;
+};
+
+std::optional<FoundFile> find_named(const fs::path& folder, const std::string& name) {
+  if (is_file(folder / name)) return FoundFile{folder / name, true};
+  std::string slashes = name;
+  std::replace(slashes.begin(), slashes.end(), '\\', '/');
+  if (is_file(folder / slashes)) return FoundFile{folder / slashes};
+  const fs::path base = fs::path(slashes).filename();
+  for (const fs::path& file : list_files(folder, lower_case(base.extension().string()))) {
+    if (lower_case(file.filename().string()) == lower_case(base.string())) return FoundFile{file};
+  }
+  return std::nullopt;
+}
+
+/// "a.mtl b\ c.mtl" -> "a.mtl", "b c.mtl".
+std::vector<std::string> split_names(std::string_view text) {
+  std::vector<std::string> names;
+  std::string name;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool escaped = text[i] == '\\' && i + 1 < text.size() && text[i + 1] == ' ';
+    if (escaped) ++i;
+    if (escaped || (text[i] != ' ' && text[i] != '\t')) {
+      name += text[i];
+    } else if (!name.empty()) {
+      names.push_back(std::exchange(name, {}));
+    }
+  }
+  if (!name.empty()) names.push_back(name);
+  return names;
+}
+
+/// Adds a file that a line leads to, once; warns if its name is not what the line says.
+void add_file(const FoundFile& found, const std::string& name, const FilePosition& where,
+              std::vector<fs::path>& files, Warnings& warnings) {
+  if (!found.as_written) {
+    warn(warnings, where,
+         fmt::format("there is no {}; {} is used", in_quotes(name), found.path.filename().string()));
+  }
+  if (std::find(files.begin(), files.end(), found.path) == files.end()) files.push_back(found.path);
+}
+
+}  // namespace
+
+SceneFiles find_scene_files(const fs::path& scene) {
+  std::error_code error;
+  if (!fs::exists(scene, error)) {
+    throw SceneError({scene}, "no such file or folder",
+                     "name the XML, the OBJ, or the folder that holds both");
+  }
+  if (fs::is_directory(scene, error)) {
+    const fs::path xml = only_file(scene, ".xml", scene);
+    return {xml, companion(xml, ".obj")};
+  }
+  if (has_extension(scene, ".xml")) return {scene, companion(scene, ".obj")};
+  if (has_extension(scene, ".obj")) return {companion(scene, ".xml"), scene};
+  throw SceneError({scene}, "this is neither XML nor OBJ",
+                   "name the XML, the OBJ, or the folder that holds both");
+}
+
+std::vector<fs::path> find_mtl_files(const fs::path& obj, const std::vector<ObjName>& libraries,
+                                     Warnings& warnings) {
+  const fs::path folder = obj.parent_path();
+  std::vector<fs::path> files;
+  std::vector<ObjName> missing;
+  for (const auto& [text, where] : libraries) {
+    if (const auto whole = find_named(folder, text)) {  // one name, perhaps with blanks
+      add_file(*whole, text, where, files, warnings);
+      continue;
+    }
+    for (const std::string& name : split_names(text)) {
+      if (const auto found = find_named(folder, name)) {
+        add_file(*found, name, where, files, warnings);
+      } else {
+        missing.push_back({in_quotes(name), where});
+      }
+    }
+  }
+  if (libraries.empty()) missing.push_back({"mtllib line", {obj}});
+  std::string instead;
+  if (const auto all = list_files(folder, ".mtl"); files.empty() && all.size() == 1) {
+    files = all;
+    instead = fmt::format("; {} is used", all.front().filename().string());
+  }
+  for (const auto& [name, where] : missing)
+    warn(warnings, where, fmt::format("there is no {}{}", name, instead));
+  return files;
+}
+
+}  // namespace lemma

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/support/images.h"
+#include "tests/support/meshes.h"
+
+namespace lemma {
+namespace {
+
+using test::Configuration;
+using test::Estimate;
+
+struct Run {
+  Configuration configuration;
+  std::uint32_t spp;
+};
+
+/// Chance that one of the comparisons of a test fails although all estimators have the same mean. Seeds are fixed, so a
+/// test that passes does so always; this is the chance of having to look at one after a change that is right.
+constexpr double kFalseAlarm = 1e-3;
+constexpr int kSeeds = 16;
+
+/// Every run's image mean against the first's, by Welch's t with the fewest degrees of freedom it can have.
+void expect_equal_means(const Scene& scene, const std::vector<Run>& runs, double detectable) {
+  const double limit = test::t_limit(kFalseAlarm, static_cast<int>(runs.size()) - 1, kSeeds - 1);
+  Estimate reference;
+  for (const Run& run : runs) {
+    const Estimate e = test::mean_over_seeds(scene, run.configuration, run.spp, kSeeds);
+    if (&run == &runs.front()) reference = e;
+    const double z = &run == &runs.front() ? 0 : test::z_score(e, reference);
+    std::printf("%-6s %-13s %-10s mean %.6f +- %.6f  z %5.2f\n", run.configuration.integrator.data(),
+                run.configuration.lights.data(),
+                run.configuration.options.roulette == Roulette::fixed ? "fixed" : "throughput", e.mean,
+                e.standard_error, z);
+    EXPECT_LT(std::abs(z), limit);
+    // What a comparison cannot see must be small, or it shows nothing.
+    EXPECT_LT(limit * e.standard_error / e.mean, detectable) << "this run is too noisy to detect a bias";
+  }
+}
+
+std::vector<Run> all_estimators(std::uint32_t spp) {
+  IntegratorOptions fixed;
+  fixed.roulette = Roulette::fixed;
+  std::vector<Run> runs;
+  for (const char* lights : {"power", "radiance-area", "solid-angle"}) {
+    for (const char* integrator : {"mis", "direct"}) runs.push_back({{"embree", integrator, lights}, spp});
+  }
+  runs.push_back({{"embree", "brdf", "power"}, 4 * spp});
+  for (const char* integrator : {"mis", "direct"}) runs.push_back({{"embree", integrator, "power", fixed}, 4 * spp});
+  runs.push_back({{"grid", "mis", "power"}, spp});
+  return runs;
+}
+
+TEST(Agreement, VeachScene) { expect_equal_means(test::own_scene("veach-mis", 64, 36), all_estimators(16), 0.03); }
+
+TEST(Agreement, CornellBox) { expect_equal_means(test::own_scene("cornell-box", 48, 48), all_estimators(32), 0.03); }
+
+TEST(Agreement, CornellBoxWithTheLightInTheCeiling) {
+  expect_equal_means(test::own_scene("cornell-coplanar", 48, 48), all_estimators(32), 0.03);
+}
+
+/// A closed box that emits 1 and reflects half of what arrives: radiance 1 / (1 - 0.5) = 2 everywhere.
+Scene furnace(float albedo) {
+  Scene scene;
+  scene.view = {{0.2f, 0.3f, 0.4f}, {0.9f, 0.6f, 0.5f}, {0, 1, 0}, 60, 8, 8};
+  scene.triangles = test::inward_box({-1, -1, -1}, {1, 1, 2});
+  scene.materials = {make_material({albedo, albedo, albedo}, {}, 1, PhongNorm::n_plus_1)};
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    scene.facets.push_back({0, i});
+    scene.emitters.push_back({scene.triangles[i], {1, 1, 1}, i, 0});
+  }
+  scene.needs.lights = 1;
+  scene.needs.emitter_triangles = scene.emitters.size();
+  return scene;
+}
+
+/// `direct` is left to solid-angle: by area, light samples have infinite variance at the edges where two emitting walls
+/// meet, since 1 / distance^2 has no bound there. Roulette `fixed` is left out at albedo 0.9, beyond sqrt(0.6).
+TEST(Furnace, ClosedBoxHasTheGeometricSeries) {
+  struct Case {
+    float albedo;
+    Roulette roulette;
+    const char *integrator, *lights;
+  };
+  std::vector<Case> cases;
+  for (const char* lights : {"power", "radiance-area", "solid-angle"}) {
+    for (const auto& roulette : roulettes()) cases.push_back({0.5f, roulette.value, "mis", lights});
+    cases.push_back({0.9f, Roulette::throughput, "mis", lights});
+  }
+  cases.push_back({0.5f, Roulette::throughput, "brdf", "power"});
+  cases.push_back({0.5f, Roulette::throughput, "direct", "solid-angle"});
+  cases.push_back({0.9f, Roulette::throughput, "brdf", "power"});
+  const double limit = test::t_limit(kFalseAlarm, static_cast<int>(cases.size()), kSeeds - 1);
+  for (const Case& c : cases) {
+    IntegratorOptions options;
+    options.roulette = c.roulette;
+    options.emitters_reflect = true;
+    const Estimate e = test::mean_over_seeds(furnace(c.albedo), {"grid", c.integrator, c.lights, options}, 256, kSeeds);
+    const double expected = 1 / (1 - double{c.albedo});
+    std::printf("%-6s %-13s albedo %.1f: %.5f +- %.5f\n", c.integrator, c.lights, double{c.albedo}, e.mean, e.standard_error);
+    EXPECT_LT(std::abs(e.mean - expected), limit * e.standard_error + 1e-6 * expected);
+    EXPECT_LT(limit * e.standard_error, 0.02 * expected);
+  }
+}
+
+}  // namespace
+}  // namespace lemma

@@ -1,0 +1,218 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "src/core/warp.h"
+#include "src/lights/emitter_weights.h"
+#include "src/lights/light_sampler.h"
+#include "src/lights/spherical_triangle.h"
+#include "tests/support/meshes.h"
+#include "tests/support/statistics.h"
+
+namespace lemma {
+namespace {
+
+std::vector<Emitter> emitters_of(const std::vector<Triangle>& triangles, float radiance, std::uint32_t light) {
+  std::vector<Emitter> emitters;
+  for (const Triangle& t : triangles) {
+    emitters.push_back({t, {radiance, radiance, radiance}, static_cast<std::uint32_t>(emitters.size()), light});
+  }
+  return emitters;
+}
+
+/// Two sphere lights of different size and radiance.
+std::vector<Emitter> two_spheres() {
+  auto emitters = emitters_of(test::sphere_mesh({0, 2, 0}, 0.5f, 6, 8), 3, 0);
+  for (const Emitter& e : emitters_of(test::sphere_mesh({2, 2, 1}, 0.1f, 6, 8), 40, 1)) emitters.push_back(e);
+  return emitters;
+}
+
+class EveryStrategy : public testing::TestWithParam<std::string_view> {
+ protected:
+  [[nodiscard]] std::unique_ptr<const LightSampler> make(const std::vector<Emitter>& emitters) const {
+    return find_named(light_samplers(), GetParam()).value()(emitters);
+  }
+};
+
+TEST_P(EveryStrategy, SampleAndPdfAgree) {
+  const auto emitters = two_spheres();
+  const auto lights = make(emitters);
+  const LightQuery at = lights->query({0.3f, 0, -0.2f});
+  int samples = 0;
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    Sampler random(21, i, 0);
+    const auto sample = lights->sample(at, random);
+    if (!sample) continue;
+    ++samples;
+    const Vec3 y = at.x + sample->to_light;
+    // The emitter sampled is not said; the one whose plane holds y is found by its distance to the plane.
+    double nearest = 1e9;
+    std::uint32_t which = 0;
+    for (std::uint32_t e = 0; e < emitters.size(); ++e) {
+      const Vec3d n = normalize(area_vector(emitters[e].shape));
+      const double plane = std::abs(dot(Vec3d(y) - Vec3d(emitters[e].shape.v0), n));
+      const Vec3d c = (Vec3d(emitters[e].shape.v0) + Vec3d(emitters[e].shape.v1) + Vec3d(emitters[e].shape.v2)) * (1 / 3.0);
+      if (plane < 1e-5 && length(Vec3d(y) - c) < nearest && emits_towards(emitters[e], at.x)) {
+        nearest = length(Vec3d(y) - c);
+        which = e;
+      }
+    }
+    // to_light is rounded to float: the cosine and the distance move by a few roundings over the cosine.
+    EXPECT_NEAR(sample->pdf.value / lights->pdf(at, which, y).value, 1, 1e-3) << i;
+    ASSERT_TRUE(sample->visible_until > 0.98f && sample->visible_until < 1);
+  }
+  EXPECT_GT(samples, 1000);
+}
+
+/// The mean of radiance x cos / pdf over samples is the irradiance of a floor under the lights, which a sphere above the
+/// horizon gives in closed form up to its tessellation: here Lambert's sum over the emitting triangles is the reference.
+TEST_P(EveryStrategy, EstimatesTheIrradianceOfUnoccludedTriangles) {
+  const auto emitters = two_spheres();
+  const auto lights = make(emitters);
+  const Vec3 x(0.3f, 0, -0.2f);
+  double reference = 0;
+  for (const Emitter& e : emitters) {
+    if (!emits_towards(e, x)) continue;
+    const Vec3d v[3] = {normalize(Vec3d(e.shape.v0) - Vec3d(x)), normalize(Vec3d(e.shape.v1) - Vec3d(x)),
+                        normalize(Vec3d(e.shape.v2) - Vec3d(x))};
+    double irradiance = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3d& a = v[i];
+      const Vec3d& b = v[(i + 1) % 3];
+      const Vec3d c = cross(a, b);
+      irradiance += std::atan2(length(c), dot(a, b)) * c.y / length(c);
+    }
+    reference += e.radiance.g * std::abs(irradiance) / 2;
+  }
+  const LightQuery at = lights->query(x);
+  std::vector<double> values;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    Sampler random(22, i, 0);
+    const auto sample = lights->sample(at, random);
+    values.push_back(sample ? double{sample->radiance.g} * sample->wi.y / sample->pdf.value : 0.0);
+  }
+  const test::Estimate estimate = test::estimate(values);
+  // False alarms: one in 10^4 for the three strategies together.
+  EXPECT_LT(std::abs(estimate.mean - reference) / estimate.standard_error, test::z_limit(1e-4, 3))
+      << estimate.mean << " +- " << estimate.standard_error << ", expected " << reference;
+}
+
+TEST_P(EveryStrategy, NothingFromBehindAndNothingInThePlane) {
+  const std::vector<Emitter> one{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {1, 1, 1}, 0, 0}};  // emits towards +z
+  const auto lights = make(one);
+  for (const Vec3 x : {Vec3(0.2f, 0.2f, -1), Vec3(3, 3, 0)}) {
+    const LightQuery at = lights->query(x);
+    Sampler random(23, 0, 0);
+    EXPECT_FALSE(lights->sample(at, random));
+    EXPECT_EQ(lights->pdf(at, 0, {0.2f, 0.2f, 0}).value, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, EveryStrategy, testing::Values("radiance-area", "power", "solid-angle"),
+                         [](const auto& name) {
+                           std::string id(name.param);
+                           std::ranges::replace(id, '-', '_');
+                           return id;
+                         });
+
+TEST(RadianceArea, ChoosesLightsByRadianceAlone) {
+  const auto emitters = two_spheres();
+  const auto lights = find_named(light_samplers(), std::string_view("radiance-area")).value()(emitters);
+  const LightQuery at = lights->query({0, 100, 0});  // sees about the same half of both
+  std::map<float, int> chosen;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    Sampler random(24, i, 0);
+    if (const auto sample = lights->sample(at, random)) ++chosen[sample->radiance.g];
+  }
+  // 40 : 3 of those that face x, which is nearly half of either; binomial, 5 standard deviations.
+  const double share = static_cast<double>(chosen[40]) / (chosen[40] + chosen[3]);
+  EXPECT_NEAR(share, 40.0 / 43, 5 * std::sqrt(0.07 * 0.93 / 10000) + 0.005);
+}
+
+TEST(SphericalTriangle, SolidAngleOfAnOctant) {
+  const SphericalTriangle octant({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0});
+  EXPECT_NEAR(octant.solid_angle(), M_PI / 2, 1e-15);
+}
+
+TEST(SphericalTriangle, ClosedMeshCoversTheWholeSphere) {
+  double sum = 0;
+  const Vec3 inside(0.3f, -0.2f, 0.1f);
+  for (const Triangle& t : test::sphere_mesh({0, 0, 0}, 1, 20, 20)) sum += SphericalTriangle(t, inside).solid_angle();
+  EXPECT_NEAR(sum / (4 * M_PI), 1, 1e-12);
+}
+
+/// The first moment of directions over a spherical triangle is half the sum of its edges' angle x normal vectors: a
+/// closed form for the mean direction of uniform samples.
+TEST(SphericalTriangle, SamplesAreInsideAndHaveTheRightMean) {
+  const Triangle shapes[] = {{{1, 0.2f, 0}, {-0.3f, 1, 0.1f}, {0.2f, -0.1f, 1}},
+                             {{5, 5, 1}, {-5, 5, 1}, {0, -7, 1}},
+                             {{0.01f, 0, 1}, {0, 0.01f, 1}, {-0.01f, -0.01f, 1}}};
+  for (const Triangle& shape : shapes) {
+    const SphericalTriangle triangle(shape, {0, 0, 0});
+    ASSERT_TRUE(triangle.can_be_sampled());
+    const Vec3d v[3] = {normalize(Vec3d(shape.v0)), normalize(Vec3d(shape.v1)), normalize(Vec3d(shape.v2))};
+    Vec3d moment(0);
+    for (int i = 0; i < 3; ++i) {
+      const Vec3d c = cross(v[i], v[(i + 1) % 3]);
+      moment += normalize(c) * (0.5 * std::atan2(length(c), dot(v[i], v[(i + 1) % 3])));
+    }
+    if (dot(moment, v[0]) < 0) moment = -moment;
+    const Vec3d expected = moment * (1 / triangle.solid_angle());
+
+    constexpr int draws = 40000;
+    std::vector<double> along[3];
+    Sampler random(25, 0, 0);
+    const double side = dot(cross(v[0], v[1]), v[2]) > 0 ? 1 : -1;
+    for (int i = 0; i < draws; ++i) {
+      const Vec3d w = triangle.sample(random.next_2d());
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_GT(side * dot(cross(v[k], v[(k + 1) % 3]), w), -1e-9);
+        along[k].push_back(w[k]);
+      }
+    }
+    for (int k = 0; k < 3; ++k) {
+      const test::Estimate e = test::estimate(along[k]);
+      // One false alarm in 10^4 runs of the nine tests.
+      EXPECT_LT(std::abs(e.mean - expected[k]), test::z_limit(1e-4, 9) * e.standard_error + 1e-12);
+    }
+  }
+}
+
+TEST(SphericalTriangle, CoversNothingSeenFromItsPlane) {
+  const Triangle t{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const Emitter emitter{t, {1, 1, 1}, 0, 0};
+  for (const Vec3 x : {Vec3(0, 0, 0), Vec3(0.5f, 0.5f, 0), Vec3(0.2f, 0.2f, 0), Vec3(3, 0, 0)}) {
+    EXPECT_EQ(SphericalTriangle(t, x).solid_angle(), 0);
+    EXPECT_FALSE(SphericalTriangle(t, x).can_be_sampled());
+    EXPECT_EQ(EmitterWeights({&emitter, 1}).weight(x, 0), 0);
+  }
+}
+
+TEST(EmitterWeights, AreLuminanceTimesSolidAngle) {
+  const auto emitters = two_spheres();
+  const EmitterWeights weights(emitters);
+  const Vec3 x(0.3f, 0, -0.2f);
+  double sum = 0;
+  for (std::size_t i = 0; i < emitters.size(); ++i) {
+    const double expected = emits_towards(emitters[i], x)
+                                ? luminance(emitters[i].radiance) * SphericalTriangle(emitters[i].shape, x).solid_angle()
+                                : 0.0;
+    sum += weights.weight(x, i);
+    // The edge form in float32: 4e-7 at most for well-shaped triangles seen at a cosine near 1; the numerator cancels
+    // as 1 / cosine, here down to 0.02.
+    EXPECT_NEAR(weights.weight(x, i), expected, 2e-5 * expected + 1e-6 * luminance(emitters[i].radiance) * 1e-2) << i;
+  }
+  EXPECT_DOUBLE_EQ(weights.total(x), sum);
+}
+
+TEST(EmitterWeights, FindNeverReturnsOneOfNoWeight) {
+  const auto emitters = two_spheres();
+  const EmitterWeights weights(emitters);
+  const Vec3 x(0.3f, 0, -0.2f);
+  const double total = weights.total(x);
+  for (int i = 0; i <= 1000; ++i) EXPECT_GT(weights.weight(x, weights.find(x, total * i / 1000)), 0);
+}
+
+}  // namespace
+}  // namespace lemma
