@@ -2,7 +2,7 @@
 
 // What differs between Embree 4 and Embree 3: the folder of the header and the arguments of the single-ray
 // queries.
-#if LEMMA_EMBREE_MAJOR >= 4
+#if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
@@ -11,7 +11,7 @@
 namespace lemma::embree_api {
 
 inline void intersect(RTCScene scene, RTCRayHit& ray) {
-#if LEMMA_EMBREE_MAJOR >= 4
+#if RTC_VERSION_MAJOR >= 4
   rtcIntersect1(scene, &ray, nullptr);
 #else
   RTCIntersectContext context;
@@ -21,7 +21,7 @@ inline void intersect(RTCScene scene, RTCRayHit& ray) {
 }
 
 inline void occluded(RTCScene scene, RTCRay& ray) {
-#if LEMMA_EMBREE_MAJOR >= 4
+#if RTC_VERSION_MAJOR >= 4
   rtcOccluded1(scene, &ray, nullptr);
 #else
   RTCIntersectContext context;

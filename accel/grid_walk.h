@@ -54,8 +54,9 @@ class GridWalk {
     }
     const double a = (grid_.lo[k] - origin) / direction, b = (grid_.hi[k] - origin) / direction;
     const double near = direction > 0 ? a : b, far = direction > 0 ? b : a;
-    enter = near <= enter ? enter : near;
-    leave = far >= leave ? leave : far;
+    if (!(near <= far)) leave = -kNever;  // not a number
+    enter = std::max(enter, near);
+    leave = std::min(leave, far);
   }
 
   void start(int k, double origin, double direction, double enter) {

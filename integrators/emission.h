@@ -1,8 +1,24 @@
 #pragma once
 
+#include "accel/watertight.h"
 #include "integrators/integrator.h"
+#include "integrators/vertex.h"
 
 namespace lemma {
+
+/// What a ray that hits a triangle sees there: the triangle, or the first emitter on top of it
+/// (src/scene/overlays.h).
+[[nodiscard]] inline Hit top_of(const Scene& scene, const Ray& ray, const Hit& hit) {
+  const auto on_top = scene.overlays.on(hit.triangle);
+  if (on_top.empty()) return hit;
+  const ShearedRay sheared(Ray{ray.origin, ray.direction});
+  for (const std::uint32_t emitter : on_top) {
+    const std::uint32_t triangle = scene.emitters[emitter].triangle;
+    Hit seen = no_hit(sheared);
+    if (intersect(sheared, scene.triangles[triangle], triangle, seen)) return seen;
+  }
+  return hit;
+}
 
 /// The emitter that a hit lies on, or null.
 [[nodiscard]] inline const Emitter* emitter_at(const Scene& scene, const Hit& hit) {
@@ -21,16 +37,24 @@ namespace lemma {
   return world.lights.pdf(from, world.scene.facets[hit.triangle].emitter, y);
 }
 
+/// Whether the ray to a point of an emitter meets another emitter on top of it there.
+[[nodiscard]] inline bool is_covered(const Scene& scene, const Ray& to_light, std::uint32_t emitter) {
+  const std::uint32_t triangle = scene.emitters[emitter].triangle;
+  return top_of(scene, to_light, {1, triangle, 0, 0}).triangle != triangle;
+}
+
 /// One light sample at a vertex: f cos L / pdf times the Technique's weight (path.h); 0 if the light is not
 /// seen.
-template <class Technique, class Vertex>
-[[nodiscard]] Rgb light_sample(const World& world, const Vertex& vertex, const LightQuery& query,
+template <Model M, class Technique>
+[[nodiscard]] Rgb light_sample(const World& world, const Vertex<M>& vertex, const LightQuery& query,
                                Tracer& tracer, Sampler& random) {
   const std::optional<LightSample> light = world.lights.sample(query, random);
   if (!light) return {};
   const Rgb f_cos = vertex.eval_cos(light->wi);
   if (is_black(f_cos)) return {};
-  if (tracer.occluded({vertex.origin(), light->to_light, 0, light->visible_until})) return {};
+  const Ray to_light{vertex.origin(), light->to_light, 0, light->visible_until};
+  if (M.overlays && is_covered(world.scene, to_light, light->emitter)) return {};
+  if (tracer.occluded(to_light)) return {};
   return f_cos * light->radiance *
          (Technique::light_weight(light->pdf, vertex.pdf(light->wi)) / light->pdf.value);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -53,13 +54,18 @@ using IntegratorFactory = std::unique_ptr<const Integrator> (*)(const Model&, co
 [[nodiscard]] std::span<const Named<IntegratorFactory>> integrators();
 
 /// The integrator Estimator<M> for the parts of the model that a scene needs: they are constants of its code.
-template <template <Model> class Estimator>
+/// Decides one part after the other, from the first on.
+template <template <Model> class Estimator, bool... Decided>
 [[nodiscard]] std::unique_ptr<const Integrator> for_model(const Model& model,
                                                           const IntegratorOptions& options) {
-  if (model.specular && model.smooth_normals) return std::make_unique<Estimator<Model{true, true}>>(options);
-  if (model.specular) return std::make_unique<Estimator<Model{true, false}>>(options);
-  if (model.smooth_normals) return std::make_unique<Estimator<Model{false, true}>>(options);
-  return std::make_unique<Estimator<Model{false, false}>>(options);
+  constexpr std::size_t parts = 3;
+  if constexpr (sizeof...(Decided) == parts) {
+    return std::make_unique<Estimator<Model{Decided...}>>(options);
+  } else {
+    const std::array<bool, parts> needed{model.specular, model.smooth_normals, model.overlays};
+    return needed[sizeof...(Decided)] ? for_model<Estimator, Decided..., true>(model, options)
+                                      : for_model<Estimator, Decided..., false>(model, options);
+  }
 }
 
 }  // namespace lemma

@@ -25,6 +25,7 @@ class PathIntegrator final : public Integrator {
     LightQuery query;        // of the vertex that the ray left ...
     PdfSolidAngle pdf_brdf;  // ... in a direction of this density
     for (int depth = 1; hit; ++depth) {
+      if constexpr (M.overlays) hit = top_of(world.scene, ray, *hit);
       if (const Emitter* emitter = emitter_at(world.scene, *hit)) {
         // No light sample could have found what the camera sees.
         const float weight =
@@ -40,7 +41,7 @@ class PathIntegrator final : public Integrator {
       const Vertex<M> vertex(world.scene, ray, *hit);
       if constexpr (Technique::kSamplesLights) {
         query = world.lights.query(vertex.origin());
-        radiance += throughput * light_sample<Technique>(world, vertex, query, tracer, random);
+        radiance += throughput * light_sample<M, Technique>(world, vertex, query, tracer, random);
       }
       const std::optional<ScatterSample> next = vertex.sample(random);
       if (!next) break;

@@ -2,6 +2,8 @@
 
 #include "src/core/error_bound.h"
 #include "src/core/frame.h"
+#include "src/core/hit.h"
+#include "src/core/sampler.h"
 #include "src/scene/scene.h"
 
 namespace lemma {

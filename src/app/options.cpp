@@ -4,14 +4,16 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
-#include "src/app/choice_option.h"
+#include "src/app/value_option.h"
 
 namespace lemma {
 namespace {
 
-constexpr int kLargestSize = 65536;  // pixels an edge
+constexpr int kLargestEdge = 65536;  // of an image [pixels]
+constexpr std::size_t kMostCells = std::size_t{1} << 28;
 
 /// The whole text as a number; nothing if it is none.
 template <class T>
@@ -22,68 +24,64 @@ std::optional<T> parse_number(std::string_view text) {
   return value;
 }
 
-[[noreturn]] void reject(const std::string& flag, const std::string& value, const std::string& expected) {
-  throw CLI::ValidationError(flag, fmt::format("unknown value \"{}\"\n  hint: expected {}", value, expected));
+/// Puts what `parse` makes of a text into `target`, if it makes anything of it.
+template <class T, class Parse>
+TakeValue into(T& target, Parse parse) {
+  return [&target, parse](const std::string& text) {
+    const auto parsed = parse(text);
+    if (parsed) target = *parsed;
+    return parsed.has_value();
+  };
 }
 
 /// Adds an option that takes a whole number in [lowest, highest].
 template <class T>
 void add_integer(CLI::App& app, const std::string& flag, T& value, std::type_identity_t<T> lowest,
                  std::type_identity_t<T> highest, const std::string& help) {
-  const auto read = [=, &value](const std::string& text) {
+  const auto parse = [=](const std::string& text) {
     const std::optional<T> number = parse_number<T>(text);
-    if (!number || *number < lowest || *number > highest) {
-      reject(flag, text, fmt::format("a whole number from {} to {}", lowest, highest));
-    }
-    value = *number;
+    return number && *number >= lowest && *number <= highest ? number : std::nullopt;
   };
-  app.add_option_function<std::string>(flag, read, help)
-      ->type_name("N")
-      ->default_str(fmt::format("{}", value));
+  add_value(app,
+            {.flag = flag,
+             .type = "N",
+             .fallback = fmt::format("{}", value),
+             .expected = fmt::format("a whole number from {} to {}", lowest, highest),
+             .help = help},
+            into(value, parse));
 }
 
 /// Adds an option that takes a finite number above `above`.
 void add_real(CLI::App& app, const std::string& flag, float& value, float above, const std::string& help) {
-  const auto read = [=, &value](const std::string& text) {
+  const auto parse = [=](const std::string& text) {
     const std::optional<float> number = parse_number<float>(text);
-    if (!number || !std::isfinite(*number) || !(*number > above)) {
-      reject(flag, text,
-             above > std::numeric_limits<float>::lowest() ? fmt::format("a number above {}", above)
-                                                          : std::string("a number"));
-    }
-    value = *number;
+    return number && std::isfinite(*number) && *number > above ? number : std::nullopt;
   };
-  app.add_option_function<std::string>(flag, read, help)
-      ->type_name("X")
-      ->default_str(fmt::format("{}", value));
+  add_value(app,
+            {.flag = flag,
+             .type = "X",
+             .fallback = fmt::format("{}", value),
+             .expected = std::isfinite(above) ? fmt::format("a number above {}", above) : "a number",
+             .help = help},
+            into(value, parse));
 }
 
-void read_size(const std::string& text, std::optional<std::pair<int, int>>& size) {
+/// "1280x720" -> width, height.
+std::optional<std::pair<int, int>> parse_size(const std::string& text) {
   const auto x = text.find('x');
-  std::optional<int> width, height;
-  if (x != std::string::npos) {
-    width = parse_number<int>(text.substr(0, x));
-    height = parse_number<int>(text.substr(x + 1));
-  }
-  if (!width || !height || *width < 1 || *height < 1 || *width > kLargestSize || *height > kLargestSize) {
-    reject("--size", text, fmt::format("WIDTHxHEIGHT, each from 1 to {}, e.g. 1280x720", kLargestSize));
-  }
-  size.emplace(*width, *height);
+  if (x == std::string::npos) return std::nullopt;
+  const auto width = parse_number<int>(text.substr(0, x)), height = parse_number<int>(text.substr(x + 1));
+  const auto possible = [](const auto& edge) { return edge && *edge >= 1 && *edge <= kLargestEdge; };
+  if (!possible(width) || !possible(height)) return std::nullopt;
+  return std::pair(*width, *height);
 }
 
-void read_grid_cells(const std::string& text, GridResolution& resolution) {
-  constexpr std::size_t most = std::size_t{1} << 28;
-  resolution = {};
-  if (text == "density") return;
-  if (text == "27n") {
-    resolution.rule = GridResolution::Rule::twenty_seven;
-    return;
-  }
+std::optional<GridResolution> parse_grid_cells(const std::string& text) {
+  if (text == "density") return GridResolution{GridResolution::Rule::density};
+  if (text == "27n") return GridResolution{GridResolution::Rule::twenty_seven};
   const auto cells = parse_number<std::size_t>(text);
-  if (!cells || *cells < 1 || *cells > most) {
-    reject("--grid-cells", text, fmt::format("one of: density, 27n, or a whole number from 1 to {}", most));
-  }
-  resolution.cells = *cells;
+  if (!cells || *cells < 1 || *cells > kMostCells) return std::nullopt;
+  return GridResolution{.cells = *cells};
 }
 
 void add_transport_options(CLI::App& app, RenderOptions& o) {
@@ -118,12 +116,14 @@ void add_accelerator_options(CLI::App& app, RenderOptions& o) {
   add_choice(
       app, "--accel", accelerators(), [&o](auto& entry) { o.accel = entry; },
       "What finds the triangle a ray hits");
-  app.add_option_function<std::string>(
-         "--grid-cells", [&o](const std::string& text) { read_grid_cells(text, o.accel_options.grid); },
-         "Cells of the grid: density (about 4 a triangle), 27n (27 a triangle), or a number (the report's is "
-         "100000)")
-      ->type_name("density|27n|N")
-      ->default_str("density");
+  add_value(app,
+            {.flag = "--grid-cells",
+             .type = "density|27n|N",
+             .fallback = "density",
+             .expected = fmt::format("one of: density, 27n, or a whole number from 1 to {}", kMostCells),
+             .help = "Cells of the grid: density (about 4 a triangle), 27n (27 a triangle), or a number (the "
+                     "report's is 100000)"},
+            into(o.accel_options.grid, parse_grid_cells));
 }
 
 void add_output_options(CLI::App& app, RenderOptions& o) {
@@ -132,31 +132,43 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
       {"bar", ProgressStyle::bar, "a bar that is drawn over and over"},
       {"plain", ProgressStyle::plain, "a line for every tenth"},
       {"off", ProgressStyle::off, "nothing"}};
-  constexpr float any = std::numeric_limits<float>::lowest();
-  app.add_option("-o,--output", o.outputs,
-                 "Image to write, may be given several times: .exr holds linear radiance and the options, "
-                 ".png, .jpg, .tif "
-                 "... a picture. Default: SCENE's name with .exr, in this folder")
-      ->type_name("FILE");
+  constexpr float any = -std::numeric_limits<float>::infinity();
+  add_file(app,
+           {.flag = "-o,--output",
+            .type = "FILE",
+            .expected = "an image file's name, with its ending",
+            .help = "Image to write, may be given several times: .exr holds linear radiance and the options, "
+                    ".png, .jpg, .tif ... a picture. Default: SCENE's name with .exr, in this folder",
+            .repeats = true},
+           [&o](const auto& path) { o.outputs.push_back(path); });
   add_choice(
       app, "--tonemap", tone_curves(), [&o](auto& entry) { o.tone_map.curve = entry.value; },
       "Curve of pictures");
   add_real(app, "--max-radiance", o.tone_map.max_radiance, 0, "Radiance that becomes white in pictures");
   add_real(app, "--gamma", o.tone_map.gamma, 0, "Exponent of --tonemap gamma");
   add_real(app, "--exposure", o.tone_map.exposure, any, "Stops that pictures are brightened by");
-  app.add_option("--stats", o.stats, "Write the figures of the run as JSON")->type_name("FILE.json");
+  add_file(app,
+           {.flag = "--stats",
+            .type = "FILE.json",
+            .expected = "a file's name",
+            .help = "Write the figures of the run as JSON"},
+           [&o](const auto& path) { o.stats = path; });
   add_choice(
       app, "--progress", std::span<const Named<ProgressStyle>>(styles),
       [&o](auto& entry) { o.progress = entry.value; }, "Progress on stderr");
-  app.add_flag_callback(
-      "-q,--quiet", [&o] { o.progress = ProgressStyle::off; }, "No progress, no summary");
+  app.add_flag("-q,--quiet", o.quiet, "Print nothing but errors");
 }
 
 }  // namespace
 
 CLI::App* add_render_command(CLI::App& app, RenderOptions& o) {
   CLI::App* render = app.add_subcommand("render", "Render a scene to image files");
-  render->add_option("SCENE", o.scene, "The XML file, the OBJ file, or the folder that holds both")
+  add_file(*render,
+           {.flag = "SCENE",
+            .type = "PATH",
+            .expected = "an XML file, an OBJ file, or the folder that holds both",
+            .help = "The XML file, the OBJ file, or the folder that holds both"},
+           [&o](const auto& path) { o.scene = path; })
       ->required();
   add_output_options(*render, o);
   add_accelerator_options(*render, o);
@@ -166,11 +178,12 @@ CLI::App* add_render_command(CLI::App& app, RenderOptions& o) {
               "Seed of the random numbers: the same seed, the same image");
   add_integer(*render, "--threads", o.threads, 0, 1024,
               "Threads; 0: all of the machine. The image does not depend on it");
-  render
-      ->add_option_function<std::string>(
-          "--size", [&o](const std::string& text) { read_size(text, o.size); },
-          "Image size in place of the scene's")
-      ->type_name("WxH");
+  add_value(*render,
+            {.flag = "--size",
+             .type = "WxH",
+             .expected = fmt::format("WIDTHxHEIGHT, each from 1 to {}, e.g. 1280x720", kLargestEdge),
+             .help = "Image size in place of the scene's"},
+            into(o.size, parse_size));
   return render;
 }
 

@@ -36,6 +36,7 @@ struct RenderOptions {
   int threads = 0;                          // 0: all
   ToneMap tone_map;
   ProgressStyle progress = ProgressStyle::automatic;
+  bool quiet = false;  // nothing is printed but errors
 };
 
 /// Adds the command and binds its options to `options`.

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <fstream>
+#include <tuple>
 
+#include "src/app/output_file.h"
 #include "src/app/progress.h"
 #include "src/app/summary.h"
 #include "src/core/parallel.h"
@@ -20,16 +21,28 @@ fs::path default_output(const LoadReport& report) {
   return report.obj.stem().string() + ".exr";
 }
 
+void check_image(const fs::path& path) {
+  check_replaceable(path);
+  check_writable(path);
+}
+
+/// Checks all files that are to be written and whose names are known without the scene.
+void check_outputs(const RenderOptions& options) {
+  for (const fs::path& path : options.outputs) check_image(path);
+  if (!options.stats.empty()) check_text_file(options.stats);
+}
+
 LoadedScene load(const RenderOptions& options) {
   LoadedScene loaded = load_scene(options.scene, options.load);
   if (options.size) std::tie(loaded.scene.view.width, loaded.scene.view.height) = *options.size;
-  if (options.progress != ProgressStyle::off) fmt::print(stderr, "{}\n", describe(loaded));
+  if (options.quiet) return loaded;
+  fmt::print(stderr, "{}\n", describe(loaded));
   for (const std::string& warning : loaded.report.warnings) fmt::print(stderr, "{}\n", warning);
   return loaded;
 }
 
 /// The options that the image depends on, as a command line would say them.
-std::string image_options(const RenderOptions& o) {
+std::string image_options(const RenderOptions& o, const CameraView& view) {
   const IntegratorOptions& i = o.integrator_options;
   std::string_view roulette;
   for (const auto& entry : roulettes()) {
@@ -37,26 +50,21 @@ std::string image_options(const RenderOptions& o) {
   }
   return fmt::format(
       "--accel {} --integrator {} --lights {} --rr {} --max-depth {} --phong-norm {} --emitters {} --spp {} "
-      "--seed {}",
+      "--seed {} --size {}x{}",
       o.accel.name, o.integrator.name, o.lights.name, roulette, i.max_depth,
       o.load.phong_norm == PhongNorm::n_plus_1 ? "n+1" : "n+2", i.emitters_reflect ? "reflect" : "absorb",
-      o.settings.spp, o.settings.seed);
+      o.settings.spp, o.settings.seed, view.width, view.height);
 }
 
-Metadata image_metadata(const RenderOptions& options) {
+/// Nothing of it depends on when, where, or on how many threads the image was made: same input, same bytes.
+Metadata image_metadata(const RenderOptions& options, const CameraView& view) {
   return {{"Software", "Lemma " LEMMA_VERSION},
+          {"DateTime", ""},  // else OpenImageIO puts the time there
           {"lemma:version", LEMMA_VERSION},
           {"lemma:scene", options.scene.string()},
-          {"lemma:options", image_options(options)},
+          {"lemma:options", image_options(options, view)},
           {"lemma:spp", fmt::format("{}", options.settings.spp)},
           {"lemma:seed", fmt::format("{}", options.settings.seed)}};
-}
-
-void write_stats(const fs::path& path, const std::string& json) {
-  if (path.empty()) return;
-  std::ofstream file(path);
-  file << json;
-  if (!file.flush()) throw ImageFileError(fmt::format("{}: error: cannot be written", path.string()));
 }
 
 struct BuiltAccelerator {
@@ -73,26 +81,26 @@ BuiltAccelerator build_accelerator(const RenderOptions& options, const Scene& sc
 }  // namespace
 
 ExitCode run_render(const RenderOptions& options) {
+  check_outputs(options);
   const ThreadLimit limit(options.threads);
   const LoadedScene loaded = load(options);
   const Scene& scene = loaded.scene;
-  const std::vector<fs::path> outputs =
-      options.outputs.empty() ? std::vector<fs::path>{default_output(loaded.report)} : options.outputs;
-  for (const fs::path& path : outputs) check_writable(path);
+  std::vector<fs::path> outputs = options.outputs;
+  if (outputs.empty()) check_image(outputs.emplace_back(default_output(loaded.report)));
 
   const BuiltAccelerator built = build_accelerator(options, scene);
   const auto lights = options.lights.value(scene.emitters);
   const auto integrator = options.integrator.value(scene.needs.model, options.integrator_options);
-  Progress progress(options.progress);
+  Progress progress(options.quiet ? ProgressStyle::off : options.progress);
   const RenderResult result = render({scene, *built.accel, *lights}, *integrator, options.settings,
                                      [&](double done) { progress.update(done); });
 
-  for (const fs::path& path : outputs)
-    write_image(path, result.image, options.tone_map, image_metadata(options));
+  const Metadata metadata = image_metadata(options, scene.view);
+  for (const fs::path& path : outputs) write_image(path, result.image, options.tone_map, metadata);
   const RunFigures figures{describe(scene.needs), built.accel->description(), built.accel->memory_bytes(),
                            built.seconds, limit.threads()};
-  write_stats(options.stats, summary_json(options, figures, result));
-  if (options.progress != ProgressStyle::off) fmt::print("{}", summary_text(options, figures, result));
+  if (!options.stats.empty()) write_text_file(options.stats, summary_json(options, figures, result));
+  if (!options.quiet) fmt::print("{}", summary_text(options, figures, result));
   return result.invalid_samples > 0 ? kInvalidSamples : kDone;
 }
 

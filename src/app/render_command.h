@@ -6,7 +6,7 @@
 namespace lemma {
 
 /// `lemma render`: loads, builds, renders, writes.
-/// @throw SceneError, ImageFileError
+/// @throw std::runtime_error whose what() is the message for the user
 [[nodiscard]] ExitCode run_render(const RenderOptions& options);
 
 }  // namespace lemma

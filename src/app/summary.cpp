@@ -72,7 +72,8 @@ std::string summary_json(const RenderOptions& options, const RunFigures& figures
       {"paths_cut", result.counts.paths_cut},
       {"invalid_samples", result.invalid_samples},
   };
-  return json.dump(2) + "\n";
+  const auto replace = nlohmann::ordered_json::error_handler_t::replace;  // names of files may be no UTF-8
+  return json.dump(2, ' ', false, replace) + "\n";
 }
 
 }  // namespace lemma

@@ -26,7 +26,7 @@ class AreaSampler final : public LightSampler {
     const auto [b1, b2] = uniform_triangle(random.next_2d());
     const auto connection = connect(emitters_[i], at.x, point_at(emitters_[i].shape, b1, b2));
     if (!connection) return std::nullopt;
-    return make_light_sample(emitters_[i], at.x, *connection, density(i, *connection));
+    return make_light_sample(emitters_, i, at.x, *connection, density(i, *connection));
   }
 
   PdfSolidAngle pdf(const LightQuery& at, std::uint32_t emitter, const Vec3& y) const override {

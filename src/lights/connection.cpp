@@ -30,13 +30,14 @@ std::optional<Connection> connect(const Emitter& emitter, const Vec3& x, const V
   return Connection{to_light, distance2, std::min(cos_light, 1.0)};
 }
 
-LightSample make_light_sample(const Emitter& emitter, const Vec3& x, const Connection& connection,
-                              PdfSolidAngle pdf) {
+LightSample make_light_sample(std::span<const Emitter> emitters, std::size_t index, const Vec3& x,
+                              const Connection& connection, PdfSolidAngle pdf) {
   return {.to_light = Vec3(connection.to_light),
           .wi = Vec3(normalize(connection.to_light)),
           .pdf = pdf,
-          .radiance = emitter.radiance,
-          .visible_until = visible_until(emitter, x, connection)};
+          .radiance = emitters[index].radiance,
+          .emitter = static_cast<std::uint32_t>(index),
+          .visible_until = visible_until(emitters[index], x, connection)};
 }
 
 }  // namespace lemma

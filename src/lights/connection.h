@@ -16,11 +16,11 @@ struct Connection {
 
 [[nodiscard]] std::optional<Connection> connect(const Emitter& emitter, const Vec3& x, const Vec3d& y);
 
-/// The sample for a connection. visible_until stops short of the emitter by the bound of what a hit on it, or
-/// on a surface in its plane, can err by (kPlaneError); so a light is not shadowed by itself, by its own
-/// neighbours in the mesh or by a ceiling that it lies in, and what stands in front of it by more than that
-/// still shadows it.
-[[nodiscard]] LightSample make_light_sample(const Emitter& emitter, const Vec3& x,
-                                            const Connection& connection, PdfSolidAngle pdf);
+/// The sample for a connection to emitters[index]. visible_until stops short of the emitter by the bound of
+/// what a hit on it, or on a surface in its plane, can err by (kPlaneError); so a light is not shadowed by
+/// itself, by its own neighbours in the mesh or by a ceiling that it lies in, and what stands in front of it
+/// by more than that still shadows it.
+[[nodiscard]] LightSample make_light_sample(std::span<const Emitter> emitters, std::size_t index,
+                                            const Vec3& x, const Connection& connection, PdfSolidAngle pdf);
 
 }  // namespace lemma

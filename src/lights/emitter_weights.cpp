@@ -1,7 +1,8 @@
 #include "src/lights/emitter_weights.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lemma {
 namespace {
@@ -21,83 +22,112 @@ inline float atan_unit(float r) {
   return r + r * s * p;
 }
 
-/// atan2(y, x) for y > 0, without a branch.
+/// atan2(y, x) for y > 0. Written without branches, as sums with a sign, so that loops over it are
+/// vectorised.
 inline float atan2_upper(float y, float x) {
   constexpr float pi = 3.14159265358979f;
   const float ax = std::abs(x);
-  const float hi = y > ax ? y : ax, lo = y > ax ? ax : y;
-  const float angle = atan_unit(hi > 0 ? lo / hi : 0.0f);
-  const float first = y > ax ? 0.5f * pi - angle : angle;
-  return x < 0 ? pi - first : first;
+  const float hi = std::max(y, ax), lo = std::min(y, ax);
+  const float angle = atan_unit(lo / (hi + std::numeric_limits<float>::min()));
+  const float steep = static_cast<float>(y > ax);  // then the angle was measured from the y axis
+  const float acute = steep * (0.5f * pi) + (1 - 2 * steep) * angle;
+  const float obtuse = static_cast<float>(x < 0);
+  return obtuse * pi + (1 - 2 * obtuse) * acute;
 }
 
-struct Vertices {
-  float ax, ay, az, bx, by, bz, cx, cy, cz;
-};
+/// Sum of a block in an order that leaves several additions independent: a single chain of them would take as
+/// long as the weights.
+template <std::size_t N>
+double sum(const std::array<float, N>& values) {
+  constexpr std::size_t lanes = 8;
+  std::array<float, lanes> partial{};
+  for (std::size_t i = 0; i < N; i += lanes) {
+    for (std::size_t k = 0; k < lanes; ++k) partial[k] += values[i + k];
+  }
+  double total = 0;
+  for (const float p : partial) total += p;
+  return total;
+}
 
-/// luminance x solid angle (the formula of SphericalTriangle::solid_angle), 0 from behind and from within the plane.
-inline float weigh(const Vertices& v, float nx, float ny, float nz, float luminance) {
-  const float numerator = -(v.ax * nx + v.ay * ny + v.az * nz);
-  const float la = std::sqrt(v.ax * v.ax + v.ay * v.ay + v.az * v.az);
-  const float lb = std::sqrt(v.bx * v.bx + v.by * v.by + v.bz * v.bz);
-  const float lc = std::sqrt(v.cx * v.cx + v.cy * v.cy + v.cz * v.cz);
-  const float ab = v.ax * v.bx + v.ay * v.by + v.az * v.bz;
-  const float bc = v.bx * v.cx + v.by * v.cy + v.bz * v.cz;
-  const float ca = v.cx * v.ax + v.cy * v.ay + v.cz * v.az;
-  const float solid_angle = 2 * atan2_upper(numerator, la * lb * lc + ab * lc + bc * la + ca * lb);
-  return numerator > 0 ? luminance * solid_angle : 0.0f;
+/// Where the running sum passes `target`; the last positive value if it never does.
+template <std::size_t N>
+std::size_t find_within(const std::array<float, N>& values, double target) {
+  double running = 0;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    if (values[i] <= 0) continue;
+    running += values[i];
+    last = i;
+    if (target < running) break;
+  }
+  return last;
 }
 
 }  // namespace
 
-EmitterWeights::EmitterWeights(std::span<const Emitter> emitters) {
-  for (const Emitter& e : emitters) {
-    const Vec3 n(area_vector(e.shape));
-    v0_x_.push_back(e.shape.v0.x), v0_y_.push_back(e.shape.v0.y), v0_z_.push_back(e.shape.v0.z);
-    v1_x_.push_back(e.shape.v1.x), v1_y_.push_back(e.shape.v1.y), v1_z_.push_back(e.shape.v1.z);
-    v2_x_.push_back(e.shape.v2.x), v2_y_.push_back(e.shape.v2.y), v2_z_.push_back(e.shape.v2.z);
-    n_x_.push_back(n.x), n_y_.push_back(n.y), n_z_.push_back(n.z);
-    luminance_.push_back(luminance(e.radiance));
+EmitterWeights::EmitterWeights(std::span<const Emitter> emitters)
+    : blocks_((emitters.size() + kBlock - 1) / kBlock) {
+  for (std::size_t e = 0; e < emitters.size(); ++e) {
+    Block& b = blocks_[e / kBlock];
+    const std::size_t i = e % kBlock;
+    const Triangle& t = emitters[e].shape;
+    const Vec3 n(area_vector(t));
+    b.v0_x[i] = t.v0.x, b.v0_y[i] = t.v0.y, b.v0_z[i] = t.v0.z;
+    b.v1_x[i] = t.v1.x, b.v1_y[i] = t.v1.y, b.v1_z[i] = t.v1.z;
+    b.v2_x[i] = t.v2.x, b.v2_y[i] = t.v2.y, b.v2_z[i] = t.v2.z;
+    b.normal_x[i] = n.x, b.normal_y[i] = n.y, b.normal_z[i] = n.z;
+    b.luminance[i] = luminance(emitters[e].radiance);
   }
 }
 
-float EmitterWeights::weight(const Vec3& x, std::size_t i) const {
-  return weigh({v0_x_[i] - x.x, v0_y_[i] - x.y, v0_z_[i] - x.z, v1_x_[i] - x.x, v1_y_[i] - x.y,
-                v1_z_[i] - x.z, v2_x_[i] - x.x, v2_y_[i] - x.y, v2_z_[i] - x.z},
-               n_x_[i], n_y_[i], n_z_[i], luminance_[i]);
+/// luminance x solid angle (the formula of SphericalTriangle::solid_angle), 0 from behind and from within the
+/// plane.
+inline float EmitterWeights::weigh(const Block& b, const Vec3& x, std::size_t i) {
+  const float ax = b.v0_x[i] - x.x, ay = b.v0_y[i] - x.y, az = b.v0_z[i] - x.z;
+  const float bx = b.v1_x[i] - x.x, by = b.v1_y[i] - x.y, bz = b.v1_z[i] - x.z;
+  const float cx = b.v2_x[i] - x.x, cy = b.v2_y[i] - x.y, cz = b.v2_z[i] - x.z;
+  const float numerator = -(ax * b.normal_x[i] + ay * b.normal_y[i] + az * b.normal_z[i]);
+  const float la = std::sqrt(ax * ax + ay * ay + az * az);
+  const float lb = std::sqrt(bx * bx + by * by + bz * bz);
+  const float lc = std::sqrt(cx * cx + cy * cy + cz * cz);
+  const float ab = ax * bx + ay * by + az * bz;
+  const float bc = bx * cx + by * cy + bz * cz;
+  const float ca = cx * ax + cy * ay + cz * az;
+  const float solid_angle =
+      2 * atan2_upper(std::max(numerator, 0.0f), la * lb * lc + ab * lc + bc * la + ca * lb);
+  const float front = static_cast<float>(numerator > 0);
+  return front * b.luminance[i] * solid_angle;
 }
 
-std::size_t EmitterWeights::weigh_block(const Vec3& x, std::size_t begin,
-                                        std::span<float, kBlock> weights) const {
-  const std::size_t count = std::min(kBlock, luminance_.size() - begin);
-  for (std::size_t j = 0; j < count; ++j) weights[j] = weight(x, begin + j);
-  return count;
+inline std::array<float, EmitterWeights::kBlock> EmitterWeights::weigh_all(const Block& block,
+                                                                           const Vec3& x) {
+  std::array<float, kBlock> weights;
+  for (std::size_t i = 0; i < kBlock; ++i) weights[i] = weigh(block, x, i);
+  return weights;
+}
+
+float EmitterWeights::weight(const Vec3& x, std::size_t emitter) const {
+  return weigh(blocks_[emitter / kBlock], x, emitter % kBlock);
 }
 
 double EmitterWeights::total(const Vec3& x) const {
-  double sum = 0;
-  std::array<float, kBlock> block;
-  for (std::size_t begin = 0; begin < luminance_.size(); begin += kBlock) {
-    const std::size_t count = weigh_block(x, begin, block);
-    for (std::size_t j = 0; j < count; ++j) sum += block[j];
-  }
-  return sum;
+  double total = 0;
+  for (const Block& block : blocks_) total += sum(weigh_all(block, x));
+  return total;
 }
 
 std::size_t EmitterWeights::find(const Vec3& x, double target) const {
-  double sum = 0;
-  std::size_t last = 0;
-  std::array<float, kBlock> block;
-  for (std::size_t begin = 0; begin < luminance_.size(); begin += kBlock) {
-    const std::size_t count = weigh_block(x, begin, block);
-    for (std::size_t j = 0; j < count; ++j) {
-      if (block[j] <= 0) continue;
-      sum += block[j];
-      last = begin + j;
-      if (target < sum) return last;
+  std::size_t found = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::array<float, kBlock> weights = weigh_all(blocks_[b], x);
+    const double block_sum = sum(weights);
+    if (block_sum > 0) {
+      found = b * kBlock + find_within(weights, target);
+      if (target < block_sum) return found;
     }
+    target -= block_sum;
   }
-  return last;
+  return found;
 }
 
 }  // namespace lemma

@@ -13,10 +13,11 @@ namespace lemma {
 
 /// A point on an emitter, chosen from a reference point x.
 struct LightSample {
-  Vec3 to_light;            // from x to the point on the emitter [scene units]
-  Vec3 wi;                  // the same, unit
-  PdfSolidAngle pdf;        // probability of the emitter times density of the direction on it; > 0
-  Rgb radiance;             // emitted towards x
+  Vec3 to_light;      // from x to the point on the emitter [scene units]
+  Vec3 wi;            // the same, unit
+  PdfSolidAngle pdf;  // probability of the emitter times density of the direction on it; > 0
+  Rgb radiance;       // emitted towards x
+  std::uint32_t emitter = 0;
   float visible_until = 1;  // what blocks the ray x + t to_light hits at t in (0, visible_until)
 };
 

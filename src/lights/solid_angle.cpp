@@ -27,7 +27,7 @@ class SolidAngleSampler final : public LightSampler {
     if (!connection) return std::nullopt;
     const PdfSolidAngle pdf = density(at, i, seen, *connection);
     if (!(pdf.value > 0)) return std::nullopt;
-    return make_light_sample(emitter, at.x, *connection, pdf);
+    return make_light_sample(emitters_, i, at.x, *connection, pdf);
   }
 
   PdfSolidAngle pdf(const LightQuery& at, std::uint32_t emitter, const Vec3& y) const override {

@@ -53,7 +53,7 @@ LightList find_lights(const XmlScene& xml, const std::vector<MtlMaterial>& mater
     }
     const MtlMaterial& m = materials[material->second];
     in_xml[material->second] = true;
-    if (!is_black(m.ke)) {
+    if (!is_black(m.ke) && m.ke != light.radiance) {
       warn(warnings, m.where,
            fmt::format("Ke {} of {} is left out: the XML gives a radiance", describe(m.ke),
                        in_quotes(m.name)));
@@ -96,10 +96,10 @@ SceneError no_emitters(const FilePosition& where, const std::vector<MtlMaterial>
     if (!has_faces[i] || !looks_like_light(materials[i])) continue;
     candidates.push_back(fmt::format("{} (Ka {})", in_quotes(materials[i].name), describe(materials[i].ka)));
   }
-  constexpr std::string_view kExample = R"(write <light mtlname="NAME" radiance="17, 12, 4"/> into the XML)";
+  const std::string example = fmt::format("write {} into the XML", kLightExample);
   return {where, "no emitters found: the image would be black",
-          candidates.empty() ? fmt::format("{}, with the name of a material", kExample)
-                             : fmt::format("candidates: {}; {}", join_names(candidates), kExample)};
+          candidates.empty() ? fmt::format("{}, with the name of a material", example)
+                             : fmt::format("candidates: {}; {}", join_names(candidates), example)};
 }
 
 }  // namespace lemma

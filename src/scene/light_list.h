@@ -26,7 +26,7 @@ struct LightList {
 
 /// The lights of the XML in its order, then the materials with Ke of which the XML says nothing: a material
 /// never emits by both. A light of radiance 0 is none, so that its faces reflect. Warns of XML lights without
-/// material, of black ones, and of a Ke that does not count.
+/// material, of black ones, and of a Ke that the XML contradicts.
 [[nodiscard]] LightList find_lights(const XmlScene& xml, const std::vector<MtlMaterial>& materials,
                                     Warnings& warnings);
 

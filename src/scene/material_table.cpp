@@ -54,8 +54,8 @@ void warn_of_limits(const std::vector<MtlMaterial>& materials, const std::vector
     const std::string colour = join_names(select(materials, reflects, is_textured_colour).names);
     const std::string black = join_names(select(materials, reflects, is_textured_black).names);
     if (!colour.empty()) what += fmt::format(" the Kd of {} is used", colour);
-    if (!black.empty())
-      what += fmt::format("{} grey 0.5 stands for {}, whose Kd is 0", colour.empty() ? "" : ";", black);
+    if (!colour.empty() && !black.empty()) what += ";";
+    if (!black.empty()) what += fmt::format(" grey 0.5 stands for {}, whose Kd is 0", black);
     warn(warnings, all.where, what);
   }
   if (const Selection glass = select(materials, reflects, is_glass); !glass.names.empty()) {

@@ -20,8 +20,12 @@ std::string_view trim(std::string_view line) {
   return line.substr(0, line.find_last_not_of(kBlanks) + 1);
 }
 
-std::string_view without_comment(std::string_view line) {
-  const bool face = line.starts_with("f ") || line.starts_with("f\t");
+bool is_face(std::string_view line) {
+  return line.starts_with("f ") || line.starts_with("f\t");
+}
+
+/// @param face  whether the line belongs to a face, where no '#' can be part of a name
+std::string_view without_comment(std::string_view line, bool face) {
   for (std::size_t at = line.find('#'); at != line.npos; at = line.find('#', at + 1)) {
     if (at == 0 || face || kBlanks.find(line[at - 1]) != kBlanks.npos) return trim(line.substr(0, at));
   }
@@ -41,7 +45,8 @@ std::string plain_lines(std::string_view text) {
   out.reserve(text.size() + 1);
   std::size_t continued = 0;
   while (!text.empty()) {
-    std::string_view line = without_comment(trim(take_line(text)));
+    std::string_view line = trim(take_line(text));
+    line = without_comment(line, is_face(continued > 0 ? joined : line));
     const bool goes_on = line.ends_with('\\');
     if (goes_on) line.remove_suffix(1);
     if (goes_on || continued > 0) {

@@ -28,6 +28,15 @@ constexpr std::array<ColourKey, 4> kColours{{
     {"Ke", &MtlMaterial::ke},
 }};
 
+/// The file name of a texture line. The library takes a name behind an option with optional numbers (-o 0.1
+/// a.jpg) for one of those; then it is the last word.
+std::string texture_name(const std::string& line) {
+  std::string name;
+  tinyobj::texture_option_t options{};
+  if (tinyobj::ParseTextureNameAndOption(&name, &options, line.c_str())) return name;
+  return line.substr(line.find_last_of(" \t") + 1);
+}
+
 /// Lines of one MTL file, put into materials. Not by tinyobj::LoadMtl: it reads "nan", "abc" and a missing
 /// number as 0, says no line, and takes a Tr of three numbers for a dissolve.
 class MtlReader {
@@ -66,10 +75,7 @@ class MtlReader {
     }
     if (line.keyword == "Ns") material.ns = read_exponent(line);
     if (line.keyword == "Ni") material.ni = static_cast<float>(read_numbers(line, 1).front());
-    if (line.keyword == "map_Kd") {
-      tinyobj::texture_option_t options{};
-      tinyobj::ParseTextureNameAndOption(&material.map_kd, &options, std::string(line.rest).c_str());
-    }
+    if (line.keyword == "map_Kd") material.map_kd = texture_name(std::string(line.rest));
   }
 
   Rgb read_colour(const ObjLine& line) const {

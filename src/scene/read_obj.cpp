@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <unordered_map>
 
-#include "src/scene/ascii.h"
 #include "src/scene/numbers.h"
 #include "src/scene/obj_lines.h"
 #include "src/scene/text_file.h"
@@ -26,18 +27,22 @@ struct Finding {
   }
 };
 
+/// Indices of vertices, normals and triangles are 32-bit numbers, of which the last means "none".
+constexpr std::size_t kMostElements = 0xFFFFFFFEu;
+
 enum class Field { number, not_finite, malformed };
 
-/// tinyobjloader reads whatever is no plain number as 0, without a word; so each field is looked at first.
+/// tinyobjloader reads whatever is no number as 0, and the rest of "1.2.3" not at all, without a word; so
+/// each field is looked at first.
 Field classify(std::string_view field) {
-  if (field.find_first_of("0123456789") != field.npos &&
-      field.find_first_not_of("0123456789+-.eE") == field.npos)
-    return Field::number;
-  const std::string word = lower_case(field);
-  for (const char* name : {"nan", "inf", "ind"}) {  // the last: MSVC's -1.#IND
-    if (word.find(name) != word.npos) return Field::not_finite;
+  if (field.starts_with('+')) field.remove_prefix(1);
+  const char* const end = field.data() + field.size();
+  double value = 0;  // stays 0 for 1e999 and 1e-999, which the library takes for infinity and 0
+  const auto [stop, error] = std::from_chars(field.data(), end, value);
+  if (stop == end && error != std::errc::invalid_argument) {
+    return std::isfinite(value) ? Field::number : Field::not_finite;
   }
-  return Field::malformed;
+  return field.find("1.#") != field.npos ? Field::not_finite : Field::malformed;  // MSVC's -1.#IND, 1.#INF
 }
 
 /// Of the first three fields the worst; malformed if there are fewer.
@@ -146,6 +151,10 @@ class ObjReader {
           "corners are written 1, 1/2, 1//3 or 1/2/3; no index is 0; -1 is the last vertex so far");
     }
     if (n < 3) return short_faces_.add(line.number);
+    const std::size_t triangles = file_.triangles.size() + static_cast<std::size_t>(n);
+    if (std::max({triangles, file_.vertices.size(), file_.normals.size()}) > kMostElements) {
+      throw SceneError({path_, line.number}, "the file has more than 2^32 - 2 elements", "divide it");
+    }
     if (!material_) material_ = material_index({"", {path_, line.number}});
     ObjTriangle fan{.material = *material_};
     set_corner(fan, 0, corners[0], line.number);

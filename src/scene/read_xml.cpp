@@ -137,10 +137,7 @@ class XmlReader {
       for (const pugi::xml_node node : document_.children(root)) read_elements(node);
     }
     if (!camera_) {
-      throw SceneError(
-          {path_}, "there is no <camera>",
-          "for example <camera width=\"1280\" height=\"720\" fovy=\"40\"> <eye x=\"0\" y=\"1\" z=\"5\"/> "
-          "<lookat x=\"0\" y=\"1\" z=\"0\"/> <up x=\"0\" y=\"1\" z=\"0\"/> </camera>");
+      throw SceneError({path_}, "there is no <camera>", fmt::format("for example {}", kCameraExample));
     }
     return std::move(scene_);
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/core/rgb.h"
@@ -9,6 +10,12 @@
 #include "src/scene/messages.h"
 
 namespace lemma {
+
+/// What a file needs at least, for messages.
+inline constexpr std::string_view kCameraExample =
+    R"(<camera width="1280" height="720" fovy="40"> <eye x="0" y="1" z="5"/> <lookat x="0" y="1" z="0"/>)"
+    R"( <up x="0" y="1" z="0"/> </camera>)";
+inline constexpr std::string_view kLightExample = R"(<light mtlname="NAME" radiance="17, 12, 4"/>)";
 
 /// A light as the XML gives it: all faces of one material.
 struct XmlLight {

@@ -9,6 +9,7 @@
 #include "src/core/triangle.h"
 #include "src/lights/emitter.h"
 #include "src/scene/camera.h"
+#include "src/scene/overlays.h"
 #include "src/shading/phong.h"
 
 namespace lemma {
@@ -18,6 +19,7 @@ namespace lemma {
 struct Model {
   bool specular = false;        // a reflecting triangle has ks > 0
   bool smooth_normals = false;  // a reflecting triangle has vertex normals that differ from its own
+  bool overlays = false;        // an emitter lies in the plane of another triangle, on top of it
 };
 
 /// What a scene needs, found while loading.
@@ -48,6 +50,7 @@ struct Scene {
       normals;  // unit, one set per triangle; empty unless needs.model.smooth_normals
   std::vector<Material> materials;
   std::vector<Emitter> emitters;
+  Overlays overlays;
   SceneNeeds needs;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src/scene/ascii.h"
+#include "src/scene/read_xml.h"
 
 namespace lemma {
 namespace {
@@ -38,18 +39,17 @@ std::vector<fs::path> list_files(const fs::path& folder, std::string_view extens
 
 std::string names_of(const std::vector<fs::path>& files) {
   std::vector<std::string> names;
+  names.reserve(files.size());
   for (const fs::path& file : files) names.push_back(file.filename().string());
   return join_names(names);
 }
 
 SceneError none_found(const fs::path& where, std::string_view extension) {
   if (extension == ".xml") {
-    return {{where},
-            "there is no XML file with camera and lights",
-            "write one beside the OBJ, with the same stem: <camera width=\"512\" height=\"512\" fovy=\"40\"> "
-            "<eye x=\"0\" y=\"1\" z=\"5\"/> <lookat x=\"0\" y=\"1\" z=\"0\"/> <up x=\"0\" y=\"1\" z=\"0\"/> "
-            "</camera> "
-            "<light mtlname=\"light\" radiance=\"17, 12, 4\"/>"};
+    return {
+        {where},
+        "there is no XML file with camera and lights",
+        fmt::format("write one beside the OBJ, with the same stem: {} {}", kCameraExample, kLightExample)};
   }
   return {{where}, "there is no OBJ file with the geometry", "put it beside the XML"};
 }

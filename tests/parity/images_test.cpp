@@ -7,8 +7,8 @@
 namespace lemma {
 namespace {
 
-/// At 16 samples a pixel the grid's picture is brute force's, bit for bit. Embree's may differ where a ray passes an edge
-/// within rounding or meets two surfaces at one distance; how often is printed.
+/// At 16 samples a pixel the grid's picture is brute force's, bit for bit. Embree's may differ where a ray
+/// passes an edge within rounding or meets two surfaces at one distance; how often is printed.
 TEST(ImageParity, GridEqualsBruteForce) {
   for (const char* name : {"veach-mis", "cornell-box", "cornell-coplanar"}) {
     const Scene scene = test::own_scene(name, 96, 54);

@@ -17,10 +17,11 @@ struct Run {
   std::uint32_t spp;
 };
 
-/// Chance that one of the comparisons of a test fails although all estimators have the same mean. Seeds are fixed, so a
-/// test that passes does so always; this is the chance of having to look at one after a change that is right.
+/// Chance that one of the comparisons of a test fails although all estimators have the same mean. Seeds are
+/// fixed, so a test that passes does so always; this is the chance of having to look at one after a change
+/// that is right.
 constexpr double kFalseAlarm = 1e-3;
-constexpr int kSeeds = 16;
+constexpr int kSeeds = 32;
 
 /// Every run's image mean against the first's, by Welch's t with the fewest degrees of freedom it can have.
 void expect_equal_means(const Scene& scene, const std::vector<Run>& runs, double detectable) {
@@ -30,8 +31,8 @@ void expect_equal_means(const Scene& scene, const std::vector<Run>& runs, double
     const Estimate e = test::mean_over_seeds(scene, run.configuration, run.spp, kSeeds);
     if (&run == &runs.front()) reference = e;
     const double z = &run == &runs.front() ? 0 : test::z_score(e, reference);
-    std::printf("%-6s %-13s %-10s mean %.6f +- %.6f  z %5.2f\n", run.configuration.integrator.data(),
-                run.configuration.lights.data(),
+    std::printf("%-6s %-6s %-13s %-10s mean %.6f +- %.6f  z %5.2f\n", run.configuration.accel.data(),
+                run.configuration.integrator.data(), run.configuration.lights.data(),
                 run.configuration.options.roulette == Roulette::fixed ? "fixed" : "throughput", e.mean,
                 e.standard_error, z);
     EXPECT_LT(std::abs(z), limit);
@@ -40,25 +41,53 @@ void expect_equal_means(const Scene& scene, const std::vector<Run>& runs, double
   }
 }
 
+/// All integrators with all light samplings, each roulette and the other accelerator. Samples a pixel are
+/// such that the standard errors are about equal: light samples alone do badly on the sharp plates,
+/// `solid-angle` is slow but precise.
 std::vector<Run> all_estimators(std::uint32_t spp) {
   IntegratorOptions fixed;
   fixed.roulette = Roulette::fixed;
-  std::vector<Run> runs;
-  for (const char* lights : {"power", "radiance-area", "solid-angle"}) {
-    for (const char* integrator : {"mis", "direct"}) runs.push_back({{"embree", integrator, lights}, spp});
-  }
-  runs.push_back({{"embree", "brdf", "power"}, 4 * spp});
-  for (const char* integrator : {"mis", "direct"}) runs.push_back({{"embree", integrator, "power", fixed}, 4 * spp});
-  runs.push_back({{"grid", "mis", "power"}, spp});
-  return runs;
+  return {
+      {{"embree", "mis", "power"}, 4 * spp},
+      {{"grid", "mis", "power"}, spp},
+      {{"embree", "mis", "power", fixed}, 4 * spp},
+      {{"embree", "mis", "radiance-area"}, 4 * spp},
+      {{"embree", "mis", "solid-angle"}, spp},
+      {{"embree", "direct", "power"}, 32 * spp},
+      {{"embree", "direct", "power", fixed}, 32 * spp},
+      {{"embree", "direct", "radiance-area"}, 32 * spp},
+      {{"embree", "direct", "solid-angle"}, 3 * spp},
+      {{"embree", "brdf", "power"}, 16 * spp},
+  };
 }
 
-TEST(Agreement, VeachScene) { expect_equal_means(test::own_scene("veach-mis", 64, 36), all_estimators(16), 0.03); }
+TEST(Agreement, VeachScene) {
+  expect_equal_means(test::own_scene("veach-mis", 64, 36), all_estimators(8), 0.03);
+}
 
-TEST(Agreement, CornellBox) { expect_equal_means(test::own_scene("cornell-box", 48, 48), all_estimators(32), 0.03); }
+TEST(Agreement, CornellBox) {
+  expect_equal_means(test::own_scene("cornell-box", 32, 32), all_estimators(8), 0.03);
+}
 
 TEST(Agreement, CornellBoxWithTheLightInTheCeiling) {
-  expect_equal_means(test::own_scene("cornell-coplanar", 48, 48), all_estimators(32), 0.03);
+  expect_equal_means(test::own_scene("cornell-coplanar", 32, 32), all_estimators(8), 0.03);
+}
+
+/// A light that lies twice in one place: seen once, whatever finds it (src/scene/overlays.h).
+TEST(Agreement, LightsOnTopOfEachOther) {
+  Scene scene = test::own_scene("cornell-coplanar", 32, 32);
+  for (const Emitter& e : std::vector(scene.emitters)) {
+    Emitter copy = e;
+    copy.triangle = static_cast<std::uint32_t>(scene.triangles.size());
+    copy.radiance = e.radiance * 3;
+    copy.light = 1;
+    scene.triangles.push_back(e.shape);
+    scene.facets.push_back(
+        {scene.facets[e.triangle].material, static_cast<std::uint32_t>(scene.emitters.size())});
+    scene.emitters.push_back(copy);
+  }
+  scene.overlays = find_overlays(scene.triangles, scene.emitters);
+  expect_equal_means(scene, all_estimators(8), 0.03);
 }
 
 /// A closed box that emits 1 and reflects half of what arrives: radiance 1 / (1 - 0.5) = 2 everywhere.
@@ -76,8 +105,9 @@ Scene furnace(float albedo) {
   return scene;
 }
 
-/// `direct` is left to solid-angle: by area, light samples have infinite variance at the edges where two emitting walls
-/// meet, since 1 / distance^2 has no bound there. Roulette `fixed` is left out at albedo 0.9, beyond sqrt(0.6).
+/// `direct` is left to solid-angle: by area, light samples have infinite variance at the edges where two
+/// emitting walls meet, since 1 / distance^2 has no bound there. Roulette `fixed` is left out at albedo 0.9,
+/// beyond sqrt(0.6).
 TEST(Furnace, ClosedBoxHasTheGeometricSeries) {
   struct Case {
     float albedo;
@@ -97,9 +127,11 @@ TEST(Furnace, ClosedBoxHasTheGeometricSeries) {
     IntegratorOptions options;
     options.roulette = c.roulette;
     options.emitters_reflect = true;
-    const Estimate e = test::mean_over_seeds(furnace(c.albedo), {"grid", c.integrator, c.lights, options}, 256, kSeeds);
+    const Estimate e =
+        test::mean_over_seeds(furnace(c.albedo), {"grid", c.integrator, c.lights, options}, 128, kSeeds);
     const double expected = 1 / (1 - double{c.albedo});
-    std::printf("%-6s %-13s albedo %.1f: %.5f +- %.5f\n", c.integrator, c.lights, double{c.albedo}, e.mean, e.standard_error);
+    std::printf("%-6s %-13s albedo %.1f: %.5f +- %.5f\n", c.integrator, c.lights, double{c.albedo}, e.mean,
+                e.standard_error);
     EXPECT_LT(std::abs(e.mean - expected), limit * e.standard_error + 1e-6 * expected);
     EXPECT_LT(limit * e.standard_error, 0.02 * expected);
   }

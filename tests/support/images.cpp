@@ -25,11 +25,12 @@ double image_mean(const Image& image) {
   return sum / static_cast<double>(image.pixels.size());
 }
 
-Estimate mean_over_seeds(const Scene& scene, const Configuration& configuration, std::uint32_t spp, int seeds) {
+Estimate mean_over_seeds(const Scene& scene, const Configuration& configuration, std::uint32_t spp,
+                         std::uint64_t first_seed, int seeds) {
   std::vector<double> means;
-  for (int seed = 0; seed < seeds; ++seed) {
+  for (int i = 0; i < seeds; ++i) {
     const RenderResult result =
-        render_scene(scene, configuration, {.spp = spp, .seed = static_cast<std::uint64_t>(seed)});
+        render_scene(scene, configuration, {.spp = spp, .seed = first_seed + static_cast<std::uint64_t>(i)});
     if (result.invalid_samples > 0) throw std::runtime_error("a rendering met invalid samples");
     means.push_back(image_mean(result.image));
   }

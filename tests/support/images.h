@@ -26,9 +26,9 @@ struct Configuration {
 /// Mean over all pixels and channels.
 [[nodiscard]] double image_mean(const Image& image);
 
-/// Image means of `seeds` independent renderings.
-[[nodiscard]] Estimate mean_over_seeds(const Scene& scene, const Configuration& configuration, std::uint32_t spp,
-                                       int seeds);
+/// Image means of `seeds` independent renderings, with the seeds from first_seed on.
+[[nodiscard]] Estimate mean_over_seeds(const Scene& scene, const Configuration& configuration,
+                                       std::uint32_t spp, std::uint64_t first_seed, int seeds);
 
 /// Number of pixels that differ in any bit.
 [[nodiscard]] std::size_t differing_pixels(const Image& a, const Image& b);

@@ -14,7 +14,8 @@ std::vector<Triangle> sphere_mesh(const Vec3& centre, float radius, int rings, i
     if (ring == rings) return centre - Vec3(0, radius, 0);
     const float theta = kPi * static_cast<float>(ring) / static_cast<float>(rings);
     const float phi = 2 * kPi * static_cast<float>(segment % segments) / static_cast<float>(segments);
-    return centre + Vec3(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi)) * radius;
+    return centre +
+           Vec3(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi)) * radius;
   };
   std::vector<Triangle> triangles;
   for (int r = 0; r < rings; ++r) {

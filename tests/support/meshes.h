@@ -7,7 +7,8 @@
 
 namespace lemma::test {
 
-/// Closed latitude-longitude sphere: poles at the ends of the y axis, outward winding; 2 segments (rings - 1) triangles.
+/// Closed latitude-longitude sphere: poles at the ends of the y axis, outward winding; 2 segments (rings - 1)
+/// triangles.
 [[nodiscard]] std::vector<Triangle> sphere_mesh(const Vec3& centre, float radius, int rings, int segments);
 
 /// `count` triangles of about the given size, at random in the unit cube.

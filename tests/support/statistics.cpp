@@ -1,15 +1,18 @@
 #include "tests/support/statistics.h"
 
-#include <cmath>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <cmath>
 
 namespace lemma::test {
 namespace {
 
-/// Chance of a single two-sided test, halved for one tail, so that `tests` of them together err with `false_alarm`.
-double tail(double false_alarm, int tests) { return -std::expm1(std::log1p(-false_alarm) / tests) / 2; }
+/// Chance of a single two-sided test, halved for one tail, so that `tests` of them together err with
+/// `false_alarm`.
+double tail(double false_alarm, int tests) {
+  return -std::expm1(std::log1p(-false_alarm) / tests) / 2;
+}
 
 }  // namespace
 

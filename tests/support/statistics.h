@@ -13,11 +13,12 @@ struct Estimate {
 
 [[nodiscard]] Estimate estimate(std::span<const double> values);
 
-/// Difference of two estimates in units of its standard error (Welch). Nearly normal for 16 and more values each.
+/// Difference of two estimates in units of its standard error (Welch). Nearly normal for 16 and more values
+/// each.
 [[nodiscard]] double z_score(const Estimate& a, const Estimate& b);
 
-/// The |z| that a standard normal variable exceeds in one of `tests` independent tests with probability `false_alarm`
-/// at all (Sidak's correction).
+/// The |z| that a standard normal variable exceeds in one of `tests` independent tests with probability
+/// `false_alarm` at all (Sidak's correction).
 [[nodiscard]] double z_limit(double false_alarm, int tests);
 
 /// The same for Student's t with `freedom` degrees of freedom, which means of few values follow.

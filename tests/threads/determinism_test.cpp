@@ -6,7 +6,8 @@
 namespace lemma {
 namespace {
 
-/// The image is a function of scene, options and seed: not of the number of threads, nor of which of them did what.
+/// The image is a function of scene, options and seed: not of the number of threads, nor of which of them did
+/// what.
 TEST(Determinism, SameBitsWithAnyNumberOfThreads) {
   for (const char* name : {"veach-mis", "cornell-coplanar"}) {
     const Scene scene = test::own_scene(name, 100, 60);
@@ -19,7 +20,8 @@ TEST(Determinism, SameBitsWithAnyNumberOfThreads) {
           first = std::move(result);
           continue;
         }
-        EXPECT_EQ(test::differing_pixels(first.image, result.image), 0u) << name << " " << accel << " " << threads;
+        EXPECT_EQ(test::differing_pixels(first.image, result.image), 0u)
+            << name << " " << accel << " " << threads;
         EXPECT_EQ(first.counts.rays, result.counts.rays);
       }
     }
@@ -28,7 +30,8 @@ TEST(Determinism, SameBitsWithAnyNumberOfThreads) {
 
 TEST(Determinism, TheSeedMatters) {
   const Scene scene = test::own_scene("cornell-box", 16, 16);
-  const auto a = test::render_scene(scene, {}, {.spp = 1, .seed = 1}), b = test::render_scene(scene, {}, {.spp = 1, .seed = 2});
+  const auto a = test::render_scene(scene, {}, {.spp = 1, .seed = 1}),
+             b = test::render_scene(scene, {}, {.spp = 1, .seed = 2});
   EXPECT_GT(test::differing_pixels(a.image, b.image), 0u);
 }
 

@@ -33,7 +33,8 @@ TEST(Sampler, DependsOnSeedPixelAndSampleAlone) {
     return Sampler(seed, pixel, sample).next_bits();
   };
   EXPECT_EQ(first(1, 2, 3), first(1, 2, 3));
-  const std::set<std::uint32_t> all{first(1, 2, 3), first(2, 2, 3), first(1, 3, 3), first(1, 2, 4), first(1ull << 32, 2, 3)};
+  const std::set<std::uint32_t> all{first(1, 2, 3), first(2, 2, 3), first(1, 3, 3), first(1, 2, 4),
+                                    first(1ull << 32, 2, 3)};
   EXPECT_EQ(all.size(), 5u);
 }
 
@@ -53,8 +54,8 @@ TEST(AliasTable, ReproducesItsWeights) {
   double sum = 0;
   for (const double w : weights) sum += w;
   const AliasTable table(weights);
-  // All 2^32 integers in steps of 2^12: 2^20 evenly spaced draws, so each count errs by at most one per piece of an
-  // index's range, of which a table of 8 has at most 9.
+  // All 2^32 integers in steps of 2^12: 2^20 evenly spaced draws, so each count errs by at most one per piece
+  // of an index's range, of which a table of 8 has at most 9.
   std::vector<int> counts(weights.size());
   constexpr int draws = 1 << 20;
   for (int i = 0; i < draws; ++i) ++counts[table.sample(static_cast<std::uint32_t>(i) << 12)];
@@ -85,7 +86,7 @@ TEST(Frame, IsOrthonormalForAllNormals) {
 
 TEST(CosineHemisphere, ReachesNoDirectionBelowAndHasUnitLength) {
   constexpr float last = 1 - 0x1p-24f;
-  for (const Vec2 u : {Vec2(0, 0), Vec2(last, 0), Vec2(0, last), Vec2(last, last), Vec2(0.5f, 0.5f)}) {
+  for (const Vec2& u : {Vec2(0, 0), Vec2(last, 0), Vec2(0, last), Vec2(last, last), Vec2(0.5f, 0.5f)}) {
     const Vec3 w = cosine_hemisphere(u);
     EXPECT_GT(w.z, 0);
     EXPECT_NEAR(length(w), 1, 4 * 0x1p-23);
@@ -129,7 +130,10 @@ TEST(ParallelFor, VisitsEachIndexOnceAndPassesExceptionsOn) {
     std::vector<int> visits(1000);
     parallel_for(visits.size(), [&](std::size_t i) { ++visits[i]; });
     EXPECT_EQ(visits, std::vector<int>(1000, 1));
-    EXPECT_THROW(parallel_for(10, [](std::size_t i) { if (i == 5) throw std::runtime_error("five"); }),
+    EXPECT_THROW(parallel_for(10,
+                              [](std::size_t i) {
+                                if (i == 5) throw std::runtime_error("five");
+                              }),
                  std::runtime_error);
   }
 }

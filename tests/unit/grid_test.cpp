@@ -13,10 +13,10 @@ TEST(CellCounts, FollowTheShapeOfTheBox) {
   using Counts = std::array<int, 3>;
   EXPECT_EQ(cell_counts({1, 1, 1}, 1000), (Counts{10, 10, 10}));
   EXPECT_EQ(cell_counts({4, 2, 1}, 8000), (Counts{40, 20, 10}));
-  EXPECT_EQ(cell_counts({1, 0, 1}, 100), (Counts{10, 1, 10}));        // flat
-  EXPECT_EQ(cell_counts({1, 1e-9, 1}, 100), (Counts{10, 1, 10}));     // nearly flat
-  EXPECT_EQ(cell_counts({0, 0, 5}, 100), (Counts{1, 1, 100}));        // a line
-  EXPECT_EQ(cell_counts({0, 0, 0}, 100), (Counts{1, 1, 1}));          // a point
+  EXPECT_EQ(cell_counts({1, 0, 1}, 100), (Counts{10, 1, 10}));     // flat
+  EXPECT_EQ(cell_counts({1, 1e-9, 1}, 100), (Counts{10, 1, 10}));  // nearly flat
+  EXPECT_EQ(cell_counts({0, 0, 5}, 100), (Counts{1, 1, 100}));     // a line
+  EXPECT_EQ(cell_counts({0, 0, 0}, 100), (Counts{1, 1, 1}));       // a point
   EXPECT_EQ(cell_counts({1e-30, 2e-30, 1e-30}, 16), (Counts{2, 4, 2}));
 }
 
@@ -26,7 +26,8 @@ TEST(GridCells, RulesOfResolution) {
     const GridCells grid = build_grid_cells(triangles, resolution);
     return grid.first.size() - 1;
   };
-  // Rounding each axis to whole cells changes the number by less than half a cell an axis: 1.5 / 10 of 1000 cells.
+  // Rounding each axis to whole cells changes the number by less than half a cell an axis: 1.5 / 10 of 1000
+  // cells.
   EXPECT_NEAR(static_cast<double>(cells({})), 4000, 0.1 * 4000);
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::twenty_seven, 0})), 27000, 0.05 * 27000);
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::density, 100000})), 100000, 0.04 * 100000);

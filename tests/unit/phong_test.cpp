@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "src/core/sampler.h"
@@ -11,15 +12,16 @@ namespace {
 
 Vec3 direction(double theta_degrees, double phi = 0.3) {
   const double theta = theta_degrees * M_PI / 180;
-  return {static_cast<float>(std::sin(theta) * std::cos(phi)), static_cast<float>(std::sin(theta) * std::sin(phi)),
-          static_cast<float>(std::cos(theta))};
+  return {static_cast<float>(std::sin(theta) * std::cos(phi)),
+          static_cast<float>(std::sin(theta) * std::sin(phi)), static_cast<float>(std::cos(theta))};
 }
 
 Material glossy(float exponent, float kd = 0.3f, float ks = 0.5f, PhongNorm norm = PhongNorm::n_plus_1) {
   return make_material({kd, kd, kd}, {ks, ks, ks}, exponent, norm);
 }
 
-/// Integral of g over the hemisphere by the midpoint rule in (cos theta, phi): for smooth g, error below 1e-4.
+/// Integral of g over the hemisphere by the midpoint rule in (cos theta, phi): for smooth g, error below
+/// 1e-4.
 template <class G>
 double integrate_hemisphere(const G& g) {
   constexpr int rows = 1000, columns = 2000;
@@ -28,7 +30,8 @@ double integrate_hemisphere(const G& g) {
     const double z = (i + 0.5) / rows, r = std::sqrt(1 - z * z);
     for (int j = 0; j < columns; ++j) {
       const double phi = 2 * M_PI * (j + 0.5) / columns;
-      sum += g(Vec3(static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)), static_cast<float>(z)));
+      sum += g(Vec3(static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
+                    static_cast<float>(z)));
     }
   }
   return sum * 2 * M_PI / rows / columns;
@@ -38,9 +41,9 @@ double integrate_hemisphere(const G& g) {
 TEST(Phong, DirectionalAlbedoOfTheLobe) {
   struct Row {
     float n;
-    double albedo[5];
+    std::array<double, 5> albedo;
   };
-  constexpr double angles[5] = {0, 30, 60, 75, 85};
+  constexpr std::array<double, 5> angles{0, 30, 60, 75, 85};
   const Row rows[] = {{1, {.66667, .58723, .40600, .30563, .24206}},
                       {5, {.85715, .74250, .44521, .28040, .18562}},
                       {20, {.95455, .82666, .47776, .25885, .13201}},
@@ -48,10 +51,14 @@ TEST(Phong, DirectionalAlbedoOfTheLobe) {
   for (const Row& row : rows) {
     const Material material = glossy(row.n, 0, 1);
     const Phong<true> brdf(material);
-    for (int a = 0; a < 5; ++a) {
+    for (std::size_t a = 0; a < angles.size(); ++a) {
       const Vec3 wo = direction(angles[a]);
-      const double albedo = integrate_hemisphere([&](const Vec3& wi) { return double{brdf.eval(wo, wi).g} * wi.z; });
-      EXPECT_NEAR(albedo, row.albedo[a], 2e-4) << "n " << row.n << " angle " << angles[a];
+      const double albedo =
+          integrate_hemisphere([&](const Vec3& wi) { return double{brdf.eval(wo, wi).g} * wi.z; });
+      // The midpoint rule over 1000 rows of cos(theta) errs by (n / 1000)^2 / 24 at a lobe's peak, where
+      // eval's curve bends most; and directions in float32 by n roundings.
+      EXPECT_NEAR(albedo, row.albedo[a], 2e-5 + 0.1 * row.n * row.n * 1e-6 + 2 * row.n * 0x1p-24)
+          << "n " << row.n << " angle " << angles[a];
     }
   }
 }
@@ -63,7 +70,8 @@ TEST(Phong, SampledShareEqualsIntegratedDensity) {
       const Material material = glossy(n);
       const Phong<true> brdf(material);
       const Vec3 wo = direction(angle);
-      const double mass = integrate_hemisphere([&](const Vec3& wi) { return double{brdf.pdf(wo, wi).value}; });
+      const double mass =
+          integrate_hemisphere([&](const Vec3& wi) { return double{brdf.pdf(wo, wi).value}; });
       constexpr int draws = 200000;
       int above = 0;
       Sampler random(11, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(angle));
@@ -108,7 +116,8 @@ TEST(Phong, IsReciprocal) {
   }
 }
 
-/// Narrow lobes keep their digits: with sharp exponents the mean of 1 - cos(alpha) over samples is 1 / (n + 2).
+/// Narrow lobes keep their digits: with sharp exponents the mean of 1 - cos(alpha) over samples is 1 / (n +
+/// 2).
 TEST(Phong, NarrowLobesAreSampledWithTheRightWidth) {
   for (const float n : {1e3f, 1e5f, 1e6f}) {
     const Material material = glossy(n, 0, 1);
@@ -123,7 +132,8 @@ TEST(Phong, NarrowLobesAreSampledWithTheRightWidth) {
       const Vec3d d = Vec3d(sample->wi) - Vec3d(mirror);
       sum += 0.5 * dot(d, d);
     }
-    // Relative standard deviation of one value is about 1; roundings of unit vectors, 6e-8, shift d^2 / 2 by 1e-14.
+    // Relative standard deviation of one value is about 1; roundings of unit vectors, 6e-8, shift d^2 / 2 by
+    // 1e-14.
     EXPECT_NEAR(sum / draws * (n + 2), 1, 5 / std::sqrt(draws) + 1e-2 * (n / 1e6)) << n;
   }
 }
@@ -150,7 +160,7 @@ TEST(Phong, ExtremeNumbersGiveFiniteSamples) {
     const Material material = glossy(n);
     const Phong<true> brdf(material);
     for (const float choice : {0.0f, last}) {
-      for (const Vec2 u : {Vec2(0, 0), Vec2(last, 0), Vec2(0, last), Vec2(last, last)}) {
+      for (const Vec2& u : {Vec2(0, 0), Vec2(last, 0), Vec2(0, last), Vec2(last, last)}) {
         for (const double angle : {0.0, 45.0, 89.99}) {
           const auto sample = brdf.sample(direction(angle), choice, u);
           if (!sample) continue;

@@ -54,8 +54,8 @@ TEST(Camera, SeesTheCornersOfItsView) {
     EXPECT_LT(length(d - normalize(expected)), 1e-6f) << d;
   };
   expect_direction(100, 50, {0, 0, -1});
-  expect_direction(100, 0, {0, 1, -1});   // top: fovy is vertical
-  expect_direction(0, 50, {-2, 0, -1});   // left
+  expect_direction(100, 0, {0, 1, -1});  // top: fovy is vertical
+  expect_direction(0, 50, {-2, 0, -1});  // left
   expect_direction(200, 100, {2, -1, -1});
 }
 
@@ -68,7 +68,9 @@ TEST(PixelSum, KeepsSmallSamplesBesideManyLargeOnes) {
 
 TEST(ToneMap, CurvesAtTheirEnds) {
   const ToneMap srgb;
-  EXPECT_EQ(srgb({0, 1, 7}), (Rgb{0, 1, 1}));
+  EXPECT_EQ(srgb({0, 0, 0}), Rgb{});
+  EXPECT_NEAR(srgb({1, 0, 0}).r, 1, 0x1p-23);  // 1.055 - 0.055, two roundings
+  EXPECT_EQ(srgb({7, 0, 0}), srgb({1, 0, 0}));
   EXPECT_NEAR(srgb({0.5f, 0, 0}).r, 0.735357f, 1e-5f);
   const ToneMap report{ToneCurve::gamma, 0, 380, 0.25f};
   EXPECT_EQ(report({0, 380, 1000}), (Rgb{0, 1, 1}));

@@ -1,0 +1,124 @@
+#include "src/app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "src/app/argument_error.h"
+#include "src/app/render_command.h"
+
+namespace lemma {
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done; 1 bad scene, arguments or files; 2 done, but invalid samples were met and left out.";
+
+bool is_option(const std::string& argument) {
+  return argument.starts_with('-');
+}
+
+/// "--accel, --grid-cells, ...": every option of a command.
+std::string list_options(const CLI::App& command) {
+  std::string names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->nonpositional()) names.append(names.empty() ? "" : ", ").append(option->get_name());
+  }
+  return names;
+}
+
+std::string list_commands(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    names.append(names.empty() ? "" : ", ").append(command->get_name());
+  }
+  return names;
+}
+
+std::string hint_at_commands(const CLI::App& app) {
+  return fmt::format("expected one of: {}; lemma --help tells more", list_commands(app));
+}
+
+std::string hint_at_help(const CLI::App& command) {
+  return fmt::format("lemma {} --help tells what it takes", command.get_name());
+}
+
+ArgumentError unknown_option(const CLI::App& command, const std::string& argument) {
+  const std::string name = argument.substr(0, argument.find('='));
+  if (command.get_option_no_throw(name) != nullptr) {
+    return {fmt::format("{} stands before the command", name),
+            fmt::format("the options of a command follow it: lemma {} ... {}", command.get_name(), name)};
+  }
+  return {fmt::format("unknown option \"{}\"", name), "expected one of: " + list_options(command)};
+}
+
+/// @param arguments  those that neither an option nor a command takes; not empty
+ArgumentError unknown_argument(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const auto found = std::ranges::find_if(arguments, is_option);
+  const std::string& argument = found == arguments.end() ? arguments.front() : *found;
+  const auto commands = app.get_subcommands();
+  if (commands.empty()) {
+    return {fmt::format("unknown {} \"{}\"", is_option(argument) ? "option" : "command", argument),
+            hint_at_commands(app)};
+  }
+  const CLI::App& command = *commands.front();
+  if (is_option(argument)) return unknown_option(command, argument);
+  return {fmt::format("unexpected argument \"{}\"", argument), hint_at_help(command)};
+}
+
+ArgumentError missing_argument(const CLI::App& command) {
+  std::string names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_required() && option->count() == 0) names.append(" ").append(option->get_name());
+  }
+  return {fmt::format("lemma {} lacks{}", command.get_name(), names), hint_at_help(command)};
+}
+
+/// Lets an option that the command line ends with say what value it lacks.
+/// @throw ArgumentError
+void refuse_missing_value(CLI::App& command, const std::string& last_argument) {
+  CLI::Option* option = command.get_option_no_throw(last_argument);
+  if (option == nullptr) return;
+  option->clear();
+  option->add_result("");
+  option->run_callback();
+}
+
+/// Throws an error in Lemma's words: those of CLI11 differ from version to version and do not tell what is
+/// accepted.
+[[noreturn]] void refuse(CLI::App& app, const CLI::ParseError& error, const std::string& last_argument) {
+  if (const auto unknown = app.remaining(true); !unknown.empty()) throw unknown_argument(app, unknown);
+  const auto commands = app.get_subcommands();
+  if (commands.empty()) throw ArgumentError("no command", hint_at_commands(app));
+  CLI::App& command = *commands.front();
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) throw missing_argument(command);
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    refuse_missing_value(command, last_argument);
+  }
+  throw ArgumentError(error.what(), hint_at_help(command));
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App app("Lemma " LEMMA_VERSION ": a Monte Carlo renderer with swappable accelerators and estimators.",
+               "lemma");
+  app.set_version_flag("--version", "lemma " LEMMA_VERSION);
+  app.set_help_all_flag("--help-all", "The help of all commands");
+  app.require_subcommand(1);
+  app.footer(kExitCodes);
+  RenderOptions render_options;
+  const CLI::App* render = add_render_command(app, render_options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked_for_help) {
+    return app.exit(asked_for_help);
+  } catch (const CLI::ParseError& error) {
+    refuse(app, error, argv[argc - 1]);
+  }
+  return render->parsed() ? run_render(render_options) : kBadInput;
+}
+
+}  // namespace lemma

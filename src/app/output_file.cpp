@@ -1,0 +1,72 @@
+#include "src/app/output_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace lemma {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::runtime_error cannot_write(const fs::path& path, std::string_view why, std::string_view hint) {
+  return std::runtime_error(
+      fmt::format("{}: error: cannot be written: {}\n  hint: {}", path.string(), why, hint));
+}
+
+/// Beside the target and no other process's.
+fs::path temporary_name(const fs::path& path) {
+  return path.parent_path() / fmt::format(".{}.{}.tmp", path.filename().string(), ::getpid());
+}
+
+bool write(const fs::path& path, std::string_view text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  return file.flush().good();
+}
+
+/// Removes what stands under a temporary name, if anything does.
+void discard(const fs::path& temporary) {
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+}
+
+}  // namespace
+
+void check_replaceable(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    throw cannot_write(path, "it is a folder", "name a file, for example one in this folder");
+  }
+  if (fs::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0) {
+    throw cannot_write(path, "the file is write-protected", "choose another name, or make it writable");
+  }
+}
+
+void check_text_file(const fs::path& path) {
+  check_replaceable(path);
+  const fs::path temporary = temporary_name(path);
+  const bool creatable = write(temporary, "");
+  discard(temporary);
+  if (creatable) return;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  throw cannot_write(path, fmt::format("the folder {} does not exist or takes no files", folder.string()),
+                     "make the folder, or choose another name");
+}
+
+void write_text_file(const fs::path& path, std::string_view text) {
+  const fs::path temporary = temporary_name(path);
+  std::error_code error;
+  if (write(temporary, text)) {
+    fs::rename(temporary, path, error);
+    if (!error) return;
+  }
+  discard(temporary);
+  throw cannot_write(path, error ? error.message() : "the disk takes no more",
+                     "free space, or choose another name");
+}
+
+}  // namespace lemma

@@ -1,0 +1,296 @@
+#include <gtest/gtest.h>
+
+#include "src/core/warp.h"
+#include "src/scene/load_scene.h"
+#include "src/scene/scene_error.h"
+#include "tests/unit/scene_folder.h"
+
+namespace lemma {
+namespace {
+
+constexpr std::string_view kCamera = R"(<camera width="64" height="48" fovy="40"> <eye x="0" y="0" z="5"/>
+<lookat x="0" y="0" z="0"/> <up x="0" y="1" z="0"/> </camera>
+)";
+constexpr std::string_view kLight = "<light mtlname=\"lamp\" radiance=\"17,12,4\"/>\n";
+constexpr std::string_view kMtl = "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0.25 0.25 0.25\n";
+
+/// A square of two triangles in the plane z = 0, its normal along z.
+constexpr std::string_view kVertices = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+constexpr std::string_view kObj =
+    "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl wall\nf 1 2 3 4\nusemtl lamp\nf 1 2 3\n";
+
+class LoadScene : public testing::Test {
+ protected:
+  LoadedScene load(std::string_view xml, std::string_view obj, std::string_view mtl) {
+    folder_.write("a.xml", xml);
+    folder_.write("a.obj", obj);
+    folder_.write("a.mtl", mtl);
+    LoadedScene loaded = load_scene(folder_.path());
+    for (std::string& warning : loaded.report.warnings) warning = folder_.plain(warning);
+    return loaded;
+  }
+
+  LoadedScene load_obj(std::string_view faces) {
+    return load(lit(), std::string(kVertices).append(faces), kMtl);
+  }
+  LoadedScene load_mtl(std::string_view mtl) { return load(lit(), kObj, mtl); }
+
+  /// Camera and light.
+  static std::string lit() { return std::string(kCamera).append(kLight); }
+
+  test::SceneFolder folder_;
+};
+
+using Lines = std::vector<std::string>;
+
+TEST_F(LoadScene, PutsTheFilesTogether) {
+  const auto [scene, report] = load(lit(), kObj, kMtl);
+  EXPECT_EQ(scene.view.width, 64);
+  EXPECT_EQ(report.mtl, std::vector<std::filesystem::path>{folder_.path() / "a.mtl"});
+  EXPECT_TRUE(report.warnings.empty());
+  ASSERT_EQ(scene.triangles.size(), 3u);
+  EXPECT_EQ(scene.triangles[1].v1, Vec3(1, 1, 0));
+  ASSERT_EQ(scene.materials.size(), 2u);
+  EXPECT_EQ(scene.materials[1].kd, (Rgb{0.25f, 0.25f, 0.25f})) << "lights keep what they could reflect";
+  EXPECT_EQ(scene.facets[0].material, 0u);
+  EXPECT_EQ(scene.facets[0].emitter, kNoEmitter);
+  EXPECT_EQ(scene.facets[2].material, 1u);
+  EXPECT_EQ(scene.facets[2].emitter, 0u);
+  ASSERT_EQ(scene.emitters.size(), 1u);
+  EXPECT_EQ(scene.emitters[0].triangle, 2u);
+  EXPECT_EQ(scene.emitters[0].radiance, (Rgb{17, 12, 4}));
+}
+
+TEST_F(LoadScene, DescribesItself) {
+  const LoadedScene flat = load(lit(), kObj, kMtl);
+  EXPECT_EQ(
+      describe(flat),
+      "a.xml + a.obj + a.mtl: 3 triangles (0 dropped), 2 materials, 1 light with 1 triangle, camera 64x48");
+  EXPECT_EQ(describe(flat.scene.needs), "Lambert, opaque, no textures, flat normals, 1 light (1 triangle)");
+  const SceneNeeds all{
+      .model = {.specular = true, .smooth_normals = true}, .lights = 4, .emitter_triangles = 3040};
+  EXPECT_EQ(describe(all), "Lambert + Phong, opaque, no textures, smooth normals, 4 lights (3040 triangles)");
+}
+
+TEST_F(LoadScene, NormOfThePhongLobe) {
+  load_mtl("newmtl wall\nKs 1 1 1\nNs 7\nnewmtl lamp\n");
+  const LoadedScene one = load_scene(folder_.path());
+  const LoadedScene two = load_scene(folder_.path(), {.phong_norm = PhongNorm::n_plus_2});
+  EXPECT_FLOAT_EQ(one.scene.materials[0].specular_factor, 8 / (2 * kPi));
+  EXPECT_FLOAT_EQ(two.scene.materials[0].specular_factor, 9 / (2 * kPi));
+}
+
+TEST_F(LoadScene, DegenerateTrianglesAreDroppedAndCounted) {
+  const auto [scene, report] = load_obj(
+      "v nan 0 0\nv 2e18 0 0\nv 2 2 0\nusemtl wall\nf 1 1 2\nf 1 3 7\nf 1 2 5\nf 1 6 2\nf 2 3 4\nusemtl "
+      "lamp\nf 1 2 3\n");
+  EXPECT_EQ(report.triangles_read, 6u);
+  EXPECT_EQ(report.dropped_zero_area, 2u) << "a repeated corner, three corners in line";
+  EXPECT_EQ(report.dropped_non_finite, 2u);
+  ASSERT_EQ(scene.triangles.size(), 2u);
+  EXPECT_EQ(scene.facets.size(), 2u);
+  ASSERT_EQ(scene.emitters.size(), 1u);
+  EXPECT_EQ(scene.emitters[0].triangle, 1u) << "counts without the dropped ones";
+  EXPECT_NE(describe({scene, report}).find("6 triangles (4 dropped: 2 of zero area, 2 not finite)"),
+            std::string::npos);
+}
+
+TEST_F(LoadScene, SmallAndLargeTrianglesAreKept) {
+  const auto [scene, report] =
+      load_obj("v 1e-30 0 0\nv 0 1e-30 0\nv 1e18 0 0\nv 0 1e18 0\nusemtl lamp\nf 1 5 6\nf 1 7 8\n");
+  EXPECT_EQ(scene.triangles.size(), 2u);
+  EXPECT_EQ(geometric_normal(scene.emitters[0].shape), Vec3(0, 0, 1));
+  EXPECT_EQ(geometric_normal(scene.emitters[1].shape), Vec3(0, 0, 1));
+}
+
+TEST_F(LoadScene, EmittersFaceTheirVertexNormals) {
+  const auto emitter_normal = [&](std::string_view face) {
+    const Scene scene =
+        load_obj(std::string("vn 0 0 1\nvn 0 0 -3\nvn 0 0 0\nusemtl lamp\n").append(face)).scene;
+    EXPECT_EQ(scene.triangles[0].v1, Vec3(1, 0, 0)) << "triangles keep the winding of the file";
+    EXPECT_EQ(scene.triangles[0].v2, Vec3(1, 1, 0));
+    return geometric_normal(scene.emitters[0].shape).z;
+  };
+  EXPECT_EQ(emitter_normal("f 1 2 3\n"), 1) << "no normals: the winding";
+  EXPECT_EQ(emitter_normal("f 1//1 2//1 3//1\n"), 1);
+  EXPECT_EQ(emitter_normal("f 1//2 2//2 3//2\n"), -1);
+  EXPECT_EQ(emitter_normal("f 1//2 2//2 3//1\n"), -1) << "the mean of unit normals";
+  EXPECT_EQ(emitter_normal("f 1//1 2//2 3//2\n"), -1) << "not the first one";
+  EXPECT_EQ(emitter_normal("f 1//1 2//1 3//2\n"), 1) << "long ones weigh no more";
+  EXPECT_EQ(emitter_normal("f 1//3 2//3 3//3\n"), 1) << "zero normals say nothing";
+}
+
+TEST_F(LoadScene, SpecularOnlyIfSomethingReflectsSo) {
+  constexpr std::string_view kShinyLamp =
+      "newmtl wall\nKd 1 1 1\nnewmtl lamp\nKs 1 1 1\nnewmtl unused\nKs 1 1 1\n";
+  EXPECT_FALSE(load_mtl(kShinyLamp).scene.needs.model.specular);
+  EXPECT_TRUE(load_mtl("newmtl wall\nKs 0 0 1e-6\nnewmtl lamp\n").scene.needs.model.specular);
+}
+
+TEST_F(LoadScene, NormalsAreStoredOnlyIfTheyDiffer) {
+  const auto load_normals = [&](std::string_view normals, std::string_view material) {
+    return load_obj(std::string(normals).append("usemtl ").append(material).append("\nf 1//1 2//2 3//3\n") +
+                    "usemtl lamp\nf 1 2 3\n")
+        .scene;
+  };
+  constexpr std::string_view kFlat = "vn 0 0 2\nvn 0.00019 0 1\nvn 0 0 0\n",
+                             kBehind = "vn 0 0 -1\nvn 0 0 -1\nvn 0 0 1\n",
+                             kRound = "vn 0 0 2\nvn 0.00021 0 1\nvn 0 0 0\n";
+  EXPECT_TRUE(load_normals(kFlat, "wall").normals.empty()) << "six printed digits";
+  EXPECT_TRUE(load_normals(kBehind, "wall").normals.empty()) << "the side does not matter";
+  EXPECT_TRUE(load_normals(kRound, "lamp").normals.empty()) << "lights do not reflect";
+  const Scene smooth = load_normals(kRound, "wall");
+  EXPECT_TRUE(smooth.needs.model.smooth_normals);
+  ASSERT_EQ(smooth.normals.size(), 2u) << "one set for each triangle, those without included";
+  EXPECT_EQ(smooth.normals[0][0], Vec3(0, 0, 1)) << "unit length";
+  EXPECT_NEAR(smooth.normals[0][1].x, 0.00021f, 1e-9f);
+  EXPECT_EQ(smooth.normals[0][2], Vec3(0, 0, 1)) << "in place of a zero normal";
+  EXPECT_EQ(smooth.normals[1][0], Vec3(0, 0, 1)) << "in place of none";
+}
+
+TEST_F(LoadScene, MissingNormalsTakeTheSideOfTheOthers) {
+  const Scene scene =
+      load_obj("vn 0.1 0 -1\nvn nan 0 1\nusemtl wall\nf 1//1 2//2 3\nusemtl lamp\nf 1 2 3\n").scene;
+  ASSERT_EQ(scene.normals.size(), 2u);
+  EXPECT_EQ(scene.normals[0][1], Vec3(0, 0, -1));
+  EXPECT_EQ(scene.normals[0][2], Vec3(0, 0, -1));
+}
+
+TEST_F(LoadScene, LightsAreNumberedAsInTheXmlAndOnlyIfTheyHaveTriangles) {
+  const auto [scene, report] =
+      load(std::string(kCamera) +
+               "<light mtlname=\"b\" radiance=\"2,2,2\"/>\n<light mtlname=\"none\" radiance=\"3,3,3\"/>\n"
+               "<light mtlname=\"idle\" radiance=\"3,3,3\"/>\n<light mtlname=\"flat\" radiance=\"3,3,3\"/>\n"
+               "<light mtlname=\"a\" radiance=\"1,1,1\"/>\n<light mtlname=\"A\" radiance=\"1,1,1\"/>\n",
+           std::string(kVertices) + "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3 4\nusemtl flat\nf 1 1 1\n",
+           "newmtl a\nnewmtl b\nnewmtl idle\nnewmtl flat\n");
+  ASSERT_EQ(scene.emitters.size(), 3u);
+  EXPECT_EQ(scene.emitters[0].light, 1u);
+  EXPECT_EQ(scene.emitters[0].radiance, (Rgb{1, 1, 1}));
+  EXPECT_EQ(scene.emitters[1].light, 0u);
+  EXPECT_EQ(scene.emitters[2].light, 0u);
+  EXPECT_EQ(scene.needs.lights, 2u);
+  EXPECT_EQ(scene.needs.emitter_triangles, 3u);
+  EXPECT_EQ(report.warnings,
+            (Lines{"FOLDER/a.xml:4:1: warning: light \"none\": there is no such material",
+                   "FOLDER/a.xml:8:1: warning: light \"A\": there is no such material; is \"a\" meant?",
+                   "FOLDER/a.xml:5:1: warning: light \"idle\" has no triangle",
+                   "FOLDER/a.xml:6:1: warning: light \"flat\" has no triangle"}));
+}
+
+TEST_F(LoadScene, KeEmitsWhereTheXmlGivesNoLight) {
+  const auto [scene, report] = load(kCamera, kObj, "newmtl wall\nnewmtl lamp\nKe 17 12 4\n");
+  ASSERT_EQ(scene.emitters.size(), 1u);
+  EXPECT_EQ(scene.emitters[0].radiance, (Rgb{17, 12, 4}));
+  EXPECT_TRUE(report.warnings.empty());
+}
+
+TEST_F(LoadScene, KeIsNeverAddedToTheXml) {
+  const auto [scene, report] = load_mtl("newmtl wall\nnewmtl lamp\nKe 1 2 3\n");
+  EXPECT_EQ(scene.emitters[0].radiance, (Rgb{17, 12, 4}));
+  EXPECT_EQ(report.warnings,
+            Lines{"FOLDER/a.mtl:2: warning: Ke 1 2 3 of \"lamp\" is left out: the XML gives a radiance"});
+}
+
+TEST_F(LoadScene, BlackLightsReflect) {
+  const auto [scene, report] = load(lit() + "<light mtlname=\"wall\" radiance=\"0,0,0\"/>", kObj,
+                                    "newmtl wall\nKe 1 1 1\nnewmtl lamp\n");
+  EXPECT_EQ(scene.facets[0].emitter, kNoEmitter);
+  EXPECT_EQ(report.warnings,
+            (Lines{"FOLDER/a.mtl:1: warning: Ke 1 1 1 of \"wall\" is left out: the XML gives a radiance",
+                   "FOLDER/a.xml:4:1: warning: light \"wall\" has radiance 0 and reflects instead"}));
+}
+
+TEST_F(LoadScene, UndefinedMaterialsAreGrey) {
+  const auto [scene, report] = load_obj("f 1 2 3\nusemtl odd\nf 1 2 3\nusemtl lamp\nf 1 2 3\n");
+  ASSERT_EQ(scene.materials.size(), 4u);
+  EXPECT_EQ(scene.materials[2].kd, (Rgb{0.5f, 0.5f, 0.5f}));
+  EXPECT_EQ(scene.facets[0].material, 2u);
+  EXPECT_EQ(scene.facets[1].material, 3u);
+  EXPECT_EQ(report.warnings,
+            Lines{"FOLDER/a.obj:6: warning: no material is defined for faces without usemtl, odd; Kd "
+                  "0.5 is used"});
+}
+
+TEST_F(LoadScene, LightsNeedNoMtl) {
+  folder_.write("a.xml", lit());
+  folder_.write("a.obj", kObj);
+  const auto [scene, report] = load_scene(folder_.path() / "a.obj");
+  EXPECT_EQ(scene.emitters.size(), 1u);
+  ASSERT_EQ(report.warnings.size(), 2u);
+  EXPECT_EQ(folder_.plain(report.warnings[0]), "FOLDER/a.obj:1: warning: there is no \"a.mtl\"");
+  EXPECT_EQ(folder_.plain(report.warnings[1]),
+            "FOLDER/a.obj:6: warning: no material is defined for wall, lamp; Kd 0.5 is used");
+}
+
+TEST_F(LoadScene, TransmittanceOfTheCourseIsNotDissolve) {
+  const auto [scene, report] =
+      load_mtl("newmtl wall\nKd 0.5 0.5 0.5\nTr 1 1 1\nNi 1\nnewmtl lamp\nTr 1 1 1\n");
+  EXPECT_EQ(scene.materials[0].kd, (Rgb{0.5f, 0.5f, 0.5f}));
+  EXPECT_TRUE(report.warnings.empty());
+}
+
+constexpr std::string_view kFiveMaterials =
+    "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl lamp\nf 1 2 3\n";
+
+TEST_F(LoadScene, TexturesAreReplacedWithOneWarning) {
+  const auto [scene, report] = load(
+      lit(), std::string(kVertices).append(kFiveMaterials),
+      "newmtl a\nKd 0.1 0.1 0.1\nmap_Kd x.jpg\nnewmtl b\nKd 0 0 0\nmap_Kd y.jpg\nnewmtl c\nmap_Kd z.jpg\n"
+      "newmtl lamp\nmap_Kd x.jpg\nnewmtl unused\nmap_Kd x.jpg\n");
+  EXPECT_EQ(scene.materials[0].kd, (Rgb{0.1f, 0.1f, 0.1f}));
+  EXPECT_EQ(scene.materials[1].kd, (Rgb{0.5f, 0.5f, 0.5f}));
+  EXPECT_EQ(scene.materials[2].kd, (Rgb{0.5f, 0.5f, 0.5f}));
+  EXPECT_EQ(report.warnings,
+            Lines{"FOLDER/a.mtl:1: warning: textures are left out: the Kd of a is used; grey 0.5 "
+                  "stands for b, c, whose Kd is 0"});
+}
+
+TEST_F(LoadScene, GlassAndBrightMaterialsAreWarnedOfOnce) {
+  const auto [scene, report] = load(lit(), std::string(kVertices).append(kFiveMaterials),
+                                    "newmtl a\nKd 0.8 0 0\nKs 0.2 0 0\nNi 1\nnewmtl b\nKd 0.8 0 0\nKs 0.3 0 "
+                                    "0\nNi 1.5\nnewmtl c\nKd 2 0 0\nNi 1.1\n"
+                                    "newmtl lamp\nKd 9 9 9\nNi 2\n");
+  EXPECT_EQ(scene.materials[2].kd, (Rgb{2, 0, 0})) << "used as it is";
+  EXPECT_EQ(report.warnings,
+            (Lines{"FOLDER/a.mtl:5: warning: glass (Ni > 1) is rendered as opaque: b, c",
+                   "FOLDER/a.mtl:5: warning: Kd + Ks > 1: more light leaves than arrives, of b, c"}));
+}
+
+TEST_F(LoadScene, NoEmitters) {
+  const auto error = [&](std::string_view xml, std::string_view mtl) {
+    return folder_.error_of([&] { (void)load(xml, kObj, mtl); });
+  };
+  EXPECT_EQ(error(kCamera, "newmtl wall\nKd 1 1 1\nnewmtl lamp\nKd 1 1 1\n"),
+            "FOLDER/a.xml: error: no emitters found: the image would be black\n"
+            "  hint: write <light mtlname=\"NAME\" radiance=\"17, 12, 4\"/> into the XML, with the name of a "
+            "material");
+  EXPECT_EQ(error(kCamera, "newmtl wall\nKa 0.2 0.2 0.2\nnewmtl lamp\nKa 20 20 10\n"),
+            "FOLDER/a.xml: error: no emitters found: the image would be black\n"
+            "  hint: candidates: \"lamp\" (Ka 20 20 10); write <light mtlname=\"NAME\" radiance=\"17, 12, "
+            "4\"/> into the XML");
+}
+
+TEST_F(LoadScene, CandidatesByName) {
+  EXPECT_EQ(folder_.error_of([&] {
+    (void)load(kCamera, std::string(kVertices) + "usemtl CeilingLight\nf 1 2 3\n",
+               "newmtl CeilingLight\nnewmtl LIGHT\n");
+  }),
+            "FOLDER/a.xml: error: no emitters found: the image would be black\n"
+            "  hint: candidates: \"CeilingLight\" (Ka 0 0 0); write <light mtlname=\"NAME\" radiance=\"17, "
+            "12, 4\"/> into "
+            "the XML");
+}
+
+TEST_F(LoadScene, NoTriangles) {
+  const auto error = [&](std::string_view obj) {
+    return folder_.error_of([&] { (void)load(lit(), obj, kMtl); });
+  };
+  const std::string hint = "\n  hint: the faces need three corners that are not in line";
+  EXPECT_EQ(error(kVertices), "FOLDER/a.obj: error: no triangle can be rendered, of 0 read" + hint);
+  EXPECT_EQ(error(std::string(kVertices) + "f 1 1 1\n"),
+            "FOLDER/a.obj: error: no triangle can be rendered, of 1 read" + hint);
+}
+
+}  // namespace
+}  // namespace lemma
