@@ -20,6 +20,11 @@ bool is_option(const std::string& argument) {
   return argument.starts_with('-');
 }
 
+/// "--spp=16" -> "--spp".
+std::string name_of(const std::string& argument) {
+  return argument.substr(0, argument.find('='));
+}
+
 /// "--accel, --grid-cells, ...": every option of a command.
 std::string list_options(const CLI::App& command) {
   std::string names;
@@ -45,8 +50,7 @@ std::string hint_at_help(const CLI::App& command) {
   return fmt::format("lemma {} --help tells what it takes", command.get_name());
 }
 
-ArgumentError unknown_option(const CLI::App& command, const std::string& argument) {
-  const std::string name = argument.substr(0, argument.find('='));
+ArgumentError unknown_option(const CLI::App& command, const std::string& name) {
   if (command.get_option_no_throw(name) != nullptr) {
     return {fmt::format("{} stands before the command", name),
             fmt::format("the options of a command follow it: lemma {} ... {}", command.get_name(), name)};
@@ -64,26 +68,21 @@ ArgumentError unknown_argument(const CLI::App& app, const std::vector<std::strin
             hint_at_commands(app)};
   }
   const CLI::App& command = *commands.front();
-  if (is_option(argument)) return unknown_option(command, argument);
+  if (is_option(argument)) return unknown_option(command, name_of(argument));
   return {fmt::format("unexpected argument \"{}\"", argument), hint_at_help(command)};
 }
 
-ArgumentError missing_argument(const CLI::App& command) {
-  std::string names;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_required() && option->count() == 0) names.append(" ").append(option->get_name());
+/// The option that an error is about, if the error is that the option has no value; else null. CLI11 tells
+/// only in words which one it is.
+CLI::Option* find_option_without_value(CLI::App& command, const CLI::ParseError& error,
+                                       const std::string& last_argument) {
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    return command.get_option_no_throw(name_of(last_argument));
   }
-  return {fmt::format("lemma {} lacks{}", command.get_name(), names), hint_at_help(command)};
-}
-
-/// Lets an option that the command line ends with say what value it lacks.
-/// @throw ArgumentError
-void refuse_missing_value(CLI::App& command, const std::string& last_argument) {
-  CLI::Option* option = command.get_option_no_throw(last_argument);
-  if (option == nullptr) return;
-  option->clear();
-  option->add_result("");
-  option->run_callback();
+  if (dynamic_cast<const CLI::RequiredError*>(&error) == nullptr) return nullptr;
+  const auto missing = command.get_options(
+      [](const CLI::Option* option) { return option->get_required() && option->count() == 0; });
+  return missing.empty() ? nullptr : missing.front();
 }
 
 /// Throws an error in Lemma's words: those of CLI11 differ from version to version and do not tell what is
@@ -93,9 +92,10 @@ void refuse_missing_value(CLI::App& command, const std::string& last_argument) {
   const auto commands = app.get_subcommands();
   if (commands.empty()) throw ArgumentError("no command", hint_at_commands(app));
   CLI::App& command = *commands.front();
-  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) throw missing_argument(command);
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
-    refuse_missing_value(command, last_argument);
+  if (CLI::Option* option = find_option_without_value(command, error, last_argument)) {
+    option->clear();
+    option->add_result("");
+    option->run_callback();  // refuses the empty value and says what is expected
   }
   throw ArgumentError(error.what(), hint_at_help(command));
 }

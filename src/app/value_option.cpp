@@ -17,9 +17,9 @@ std::string long_name(const std::string& flag) {
 CLI::Option* add_value(CLI::App& app, const ValueOption& option, const TakeValue& take) {
   const auto take_all = [name = long_name(option.flag), hint = "expected " + option.expected,
                          repeats = option.repeats, take](const CLI::results_t& texts) {
-    if (texts.size() > 1 && !repeats) throw ArgumentError(name + " is given twice", "keep one of them");
+    if (texts.size() > 1 && !repeats) throw ArgumentError(name + ": given twice", "keep one of them");
     for (const std::string& text : texts) {
-      if (text.empty()) throw ArgumentError(name + " has no value", hint);
+      if (text.empty()) throw ArgumentError(name + ": missing value", hint);
       if (!take(text)) throw ArgumentError(fmt::format("{}: invalid value \"{}\"", name, text), hint);
     }
     return true;

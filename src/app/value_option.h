@@ -13,10 +13,10 @@ namespace lemma {
 
 /// How an option that takes a value presents itself.
 struct ValueOption {
-  std::string flag;      // "-o,--output"; without dashes it is an argument that is known by its place
-  std::string type;      // what help calls the value
-  std::string fallback;  // the value if none is given, for help; empty: there is none
-  std::string expected;  // what errors say is accepted
+  std::string flag;           // "-o,--output"; without dashes it is an argument that is known by its place
+  std::string type;           // what help calls the value
+  std::string fallback = {};  // what holds if no value is given, for help; empty: nothing does
+  std::string expected;       // what errors say is accepted
   std::string help;
   bool repeats = false;  // may be given several times
 };
