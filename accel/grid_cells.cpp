@@ -10,7 +10,7 @@
 namespace lemma {
 namespace {
 
-constexpr double kDensity = 4;          // cells a triangle: within 10 % of the best from 3e3 to 1e6 triangles
+constexpr double kDensity = 8;          // cells a triangle: within 10 % of the best from 3e3 to 1e6 triangles
 constexpr double kMaxCells = 1u << 28;  // 1 GiB of list heads
 constexpr double kMaxCellsPerAxis = 65535;  // the cell index stays exact, the margin above rounding
 

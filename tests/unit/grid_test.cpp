@@ -28,7 +28,7 @@ TEST(GridCells, RulesOfResolution) {
   };
   // Rounding each axis to whole cells changes the number by less than half a cell an axis: 1.5 / 10 of 1000
   // cells.
-  EXPECT_NEAR(static_cast<double>(cells({})), 4000, 0.1 * 4000);
+  EXPECT_NEAR(static_cast<double>(cells({})), 8000, 0.08 * 8000);
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::twenty_seven, 0})), 27000, 0.05 * 27000);
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::density, 100000})), 100000, 0.04 * 100000);
 }

@@ -1,0 +1,105 @@
+"""What `lemma render` prints: warnings, progress and the summary, and where."""
+
+import os
+import pty
+import re
+import unittest
+
+from lemma import CORNELL_BOX, LemmaTest
+
+SCENE_LINE = r"cornell-box\.xml \+ cornell-box\.obj \+ cornell-box\.mtl: 32 triangles .*, camera \d+x\d+\n"
+PROGRESS_LINE = r" *(\d+) %  .*\n"
+SLOW = {"size": "160x120", "spp": 64}  # long enough for progress to be shown on the way
+
+
+def text_on_terminal(write):
+    """What `write`, called with the descriptor of a terminal, puts there."""
+    shown, terminal = pty.openpty()
+    try:
+        write(terminal)
+        os.set_blocking(shown, False)
+        return os.read(shown, 1 << 20).decode()
+    finally:
+        os.close(terminal)
+        os.close(shown)
+
+
+class SummaryTest(LemmaTest):
+    def test_goes_to_stdout(self):
+        text = self.render("--accel", "brute", "--threads", 1, size="20x10", spp=3).stdout
+        self.assertRegex(text, r"\Amodel: Lambert, .*1 light \(2 triangles\)\n"
+                               r"accelerator: brute force over 32 triangles, built in .* s, .* MB\n"
+                               r"samples: 3 spp, 600 camera samples, .* million/s\n"
+                               r"rays: \d+, .* million/s, \d+ % of the time in the accelerator\n"
+                               r"time: [\d.]+ s on 1 threads\n"
+                               r"invalid samples: 0\n\Z")
+
+    def test_tells_that_paths_were_cut(self):
+        self.assertNotIn("paths cut", self.render().stdout)
+        self.assertRegex(self.render("--max-depth", 2).stdout, r"\npaths cut at depth 2: [1-9]\d* \(the image lacks")
+
+
+class QuietTest(LemmaTest):
+    def add_warning(self):
+        """A scene that is warned of."""
+        scene = self.copy_scene()
+        with open(scene / "cornell-box.xml", "a", encoding="utf-8") as xml:
+            xml.write("<fog/>\n")
+        return scene
+
+    def test_prints_nothing_at_all(self):
+        for option in ("-q", "--quiet"):
+            run = self.render(option, "--progress", "bar", scene=self.folder / self.add_warning().name)
+            self.assertEqual((run.stdout, run.stderr), ("", ""))
+            self.setUp()
+
+    def test_still_prints_errors(self):
+        self.assert_refused(["render", "-q", "nowhere"],
+                            "nowhere: error: no such file or folder\n"
+                            "  hint: name the XML, the OBJ, or the folder that holds both")
+
+    def test_warnings_are_printed_otherwise_whatever_the_progress(self):
+        scene = self.add_warning()
+        for progress in ("plain", "bar", "off"):
+            stderr = self.render("--progress", progress, scene=scene).stderr
+            self.assertRegex(stderr, r"cornell-box\.xml:\d+:1: warning: <fog> is unknown and left out\n")
+
+
+class ProgressTest(LemmaTest):
+    def test_in_a_log_is_plain_lines(self):
+        run = self.render("--accel", "brute", "--threads", 1, **SLOW)
+        self.assertRegex(run.stderr, rf"\A{SCENE_LINE}(?:{PROGRESS_LINE})+\Z")
+        self.assertNotRegex(run.stderr, r"[\r\x1b]")
+        shown = [int(percent) for percent in re.findall(PROGRESS_LINE, run.stderr)]
+        self.assertGreater(len(shown), 2)
+        self.assertEqual(shown, sorted(set(shown)), "each once, in order")
+        self.assertLessEqual(len(shown), 10)
+        self.assertEqual(shown[-1], 100)
+        self.assertRegex(run.stderr, r"\n *\d+ %  \d+ s, \d+ s to go\n")
+
+    def test_on_a_terminal_is_a_bar_with_the_time_to_go(self):
+        text = text_on_terminal(lambda terminal: self.render(
+            "--accel", "brute", "--threads", 1, stderr=terminal, capture_output=False, **SLOW))
+        bars = re.findall(r"\r\[(=*) *\] +(\d+) %  ([^\x1b]*)\x1b\[K", text)
+        self.assertGreater(len(bars), 2)
+        lengths = [len(filled) for filled, _, _ in bars]
+        self.assertEqual(lengths, sorted(lengths))
+        self.assertRegex(bars[0][2], r"^\d+ s, \d+ s to go$")
+        self.assertEqual((lengths[-1], bars[-1][1]), (40, "100"))
+        self.assertTrue(text.endswith("\n"))
+
+    def test_can_be_told_wherever_it_goes(self):
+        self.assertIn("\r[", self.render("--progress", "bar").stderr)
+        plain = text_on_terminal(lambda terminal: self.render(
+            "--progress", "plain", stderr=terminal, capture_output=False))
+        self.assertNotIn("\x1b", plain)
+        self.assertIn("100 %", plain)
+
+    def test_off_leaves_the_summary(self):
+        run = self.render("--progress", "off")
+        self.assertRegex(run.stderr, rf"\A{SCENE_LINE}\Z")
+        self.assertIn("\nsamples: 1 spp", run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
