@@ -28,6 +28,20 @@ bool write(const fs::path& path, std::string_view text) {
   return file.flush().good();
 }
 
+/// What a link leads to; a path that is no link, itself.
+fs::path target_of(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::canonical(path, error);
+  return error ? path : target;
+}
+
+/// Nothing can take the place of a device or a pipe.
+bool is_device(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_other(path, ignored);
+}
+
 /// Removes what stands under a temporary name, if anything does.
 void discard(const fs::path& temporary) {
   std::error_code ignored;
@@ -48,24 +62,27 @@ void check_replaceable(const fs::path& path) {
 
 void check_text_file(const fs::path& path) {
   check_replaceable(path);
-  const fs::path temporary = temporary_name(path);
+  const fs::path target = target_of(path);
+  if (is_device(target)) return;
+  const fs::path temporary = temporary_name(target);
   const bool creatable = write(temporary, "");
   discard(temporary);
   if (creatable) return;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   throw cannot_write(path, fmt::format("the folder {} does not exist or takes no files", folder.string()),
                      "make the folder, or choose another name");
 }
 
 void write_text_file(const fs::path& path, std::string_view text) {
-  const fs::path temporary = temporary_name(path);
+  const fs::path target = target_of(path);
+  const bool in_place = is_device(target);
+  const fs::path file = in_place ? target : temporary_name(target);
   std::error_code error;
-  if (write(temporary, text)) {
-    fs::rename(temporary, path, error);
-    if (!error) return;
-  }
-  discard(temporary);
-  throw cannot_write(path, error ? error.message() : "the disk takes no more",
+  const bool written = write(file, text);
+  if (written && !in_place) fs::rename(file, target, error);
+  if (written && !error) return;
+  if (!in_place) discard(file);
+  throw cannot_write(path, error ? error.message() : "no more fits there",
                      "free space, or choose another name");
 }
 

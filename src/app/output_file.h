@@ -14,7 +14,7 @@ void check_replaceable(const std::filesystem::path& path);
 /// @throw std::runtime_error
 void check_text_file(const std::filesystem::path& path);
 
-/// Writes a text file that appears under its name only when it is whole.
+/// Writes a text file that appears under its name only when it is whole; to a device or pipe, as it comes.
 /// @throw std::runtime_error
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 

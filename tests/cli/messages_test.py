@@ -1,27 +1,39 @@
 """What `lemma render` prints: warnings, progress and the summary, and where."""
 
+import concurrent.futures
+import contextlib
 import os
 import pty
 import re
 import unittest
 
-from lemma import CORNELL_BOX, LemmaTest
+from lemma import LemmaTest
 
 SCENE_LINE = r"cornell-box\.xml \+ cornell-box\.obj \+ cornell-box\.mtl: 32 triangles .*, camera \d+x\d+\n"
 PROGRESS_LINE = r" *(\d+) %  .*\n"
 SLOW = {"size": "160x120", "spp": 64}  # long enough for progress to be shown on the way
 
 
+def read_to_end(terminal):
+    """What is written to a terminal until it is closed, which reading meets as an error."""
+    text = b""
+    with contextlib.suppress(OSError):
+        while part := os.read(terminal, 4096):
+            text += part
+    return text.decode()
+
+
 def text_on_terminal(write):
     """What `write`, called with the descriptor of a terminal, puts there."""
-    shown, terminal = pty.openpty()
-    try:
-        write(terminal)
-        os.set_blocking(shown, False)
-        return os.read(shown, 1 << 20).decode()
-    finally:
-        os.close(terminal)
-        os.close(shown)
+    screen, terminal = pty.openpty()
+    with concurrent.futures.ThreadPoolExecutor() as readers:
+        text = readers.submit(read_to_end, screen)
+        try:
+            write(terminal)
+        finally:
+            os.close(terminal)
+    os.close(screen)
+    return text.result()
 
 
 class SummaryTest(LemmaTest):
@@ -40,18 +52,17 @@ class SummaryTest(LemmaTest):
 
 
 class QuietTest(LemmaTest):
-    def add_warning(self):
-        """A scene that is warned of."""
+    def scene_with_warning(self):
         scene = self.copy_scene()
         with open(scene / "cornell-box.xml", "a", encoding="utf-8") as xml:
             xml.write("<fog/>\n")
         return scene
 
     def test_prints_nothing_at_all(self):
-        for option in ("-q", "--quiet"):
-            run = self.render(option, "--progress", "bar", scene=self.folder / self.add_warning().name)
+        scene = self.scene_with_warning()
+        for options in (["-q"], ["--quiet"], ["-q", "--progress", "bar"]):
+            run = self.render(*options, scene=scene)
             self.assertEqual((run.stdout, run.stderr), ("", ""))
-            self.setUp()
 
     def test_still_prints_errors(self):
         self.assert_refused(["render", "-q", "nowhere"],
@@ -59,7 +70,7 @@ class QuietTest(LemmaTest):
                             "  hint: name the XML, the OBJ, or the folder that holds both")
 
     def test_warnings_are_printed_otherwise_whatever_the_progress(self):
-        scene = self.add_warning()
+        scene = self.scene_with_warning()
         for progress in ("plain", "bar", "off"):
             stderr = self.render("--progress", progress, scene=scene).stderr
             self.assertRegex(stderr, r"cornell-box\.xml:\d+:1: warning: <fog> is unknown and left out\n")
@@ -79,7 +90,7 @@ class ProgressTest(LemmaTest):
 
     def test_on_a_terminal_is_a_bar_with_the_time_to_go(self):
         text = text_on_terminal(lambda terminal: self.render(
-            "--accel", "brute", "--threads", 1, stderr=terminal, capture_output=False, **SLOW))
+            "--accel", "brute", "--threads", 1, stderr=terminal, **SLOW))
         bars = re.findall(r"\r\[(=*) *\] +(\d+) %  ([^\x1b]*)\x1b\[K", text)
         self.assertGreater(len(bars), 2)
         lengths = [len(filled) for filled, _, _ in bars]
@@ -91,7 +102,7 @@ class ProgressTest(LemmaTest):
     def test_can_be_told_wherever_it_goes(self):
         self.assertIn("\r[", self.render("--progress", "bar").stderr)
         plain = text_on_terminal(lambda terminal: self.render(
-            "--progress", "plain", stderr=terminal, capture_output=False))
+            "--progress", "plain", stderr=terminal))
         self.assertNotIn("\x1b", plain)
         self.assertIn("100 %", plain)
 
