@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -98,8 +98,9 @@ class EmbreeBvh final : public Accelerator {
     auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
     if (!vertices || !indices) throw std::bad_alloc();
-    static_assert(sizeof(Triangle) == 9 * sizeof(float));
-    std::memcpy(vertices, triangles_.data(), triangles_.size_bytes());
+    for (const Triangle& t : triangles_) {
+      for (const Vec3& v : {t.v0, t.v1, t.v2}) vertices = std::copy_n(&v[0], 3, vertices);
+    }
     for (std::uint32_t i = 0; i < 3 * count; ++i) indices[i] = i;
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_.get(), geometry);

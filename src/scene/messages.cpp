@@ -13,8 +13,8 @@ void warn(Warnings& warnings, const FilePosition& where, std::string_view what) 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::string shown(text.substr(0, kLongest));
-  std::replace_if(
-      shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  std::replace_if(shown.begin(), shown.end(), is_control, ' ');
   return fmt::format("\"{}{}\"", shown, text.size() > kLongest ? "..." : "");
 }
 

@@ -17,9 +17,10 @@ namespace {
 
 constexpr double kMaxExponent = 1e6;
 
+using ColourMember = Rgb MtlMaterial::*;
 struct ColourKey {
   std::string_view keyword;
-  Rgb MtlMaterial::*member;
+  ColourMember member;
 };
 constexpr std::array<ColourKey, 4> kColours{{
     {"Ka", &MtlMaterial::ka},
