@@ -11,7 +11,7 @@ set(wrapped
     "<OpenImageIO/" "^src/(render|shading)/"
     "<CLI/" "^src/app/"
     "<nlohmann/" "^src/app/"
-    "<(tbb|oneapi)/" "^src/core/parallel\\.cpp$")
+    "<(tbb|oneapi)/" "^src/core/tbb_loop\\.cpp$")
 
 function(check_project_include file header)
   cmake_path(GET header PARENT_PATH folder)

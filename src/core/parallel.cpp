@@ -1,43 +1,34 @@
 #include "src/core/parallel.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <atomic>
 
 namespace lemma {
+namespace {
 
-struct ThreadLimit::Control {
-  tbb::global_control limit;
+// What fork and join guarantee, said once more in a way that a thread sanitizer sees, which cannot look into
+// TBB: bodies start after the caller's writes, and the caller goes on after theirs. Between bodies these
+// order nothing, so that a race of two bodies is still found.
+std::atomic<unsigned> forks{0}, joins{0};
+
+struct Join {
+  Join() = default;
+  ~Join() { joins.fetch_add(1, std::memory_order_release); }
+  Join(const Join&) = delete;
+  Join& operator=(const Join&) = delete;
 };
 
-ThreadLimit::ThreadLimit(int threads)
-    : control_(nullptr), threads_(threads > 0 ? threads : tbb::info::default_concurrency()) {
-  control_ = new Control{
-      tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_))};
+void run_body(const void* body, std::size_t i) {
+  (void)forks.load(std::memory_order_acquire);
+  const Join join;
+  (*static_cast<const std::function<void(std::size_t)>*>(body))(i);
 }
 
-ThreadLimit::~ThreadLimit() {
-  delete control_;
-}
+}  // namespace
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-  const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  tbb::task_arena arena(static_cast<int>(threads));
-  // The two atomics say to the memory model (and to a thread sanitizer, which cannot look into the TBB
-  // library) what fork and join already guarantee: bodies start after the caller's writes, the caller resumes
-  // after theirs.
-  std::atomic<int> started{0}, finished{0};
-  started.store(1, std::memory_order_release);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      (void)started.load(std::memory_order_acquire);
-      body(i);
-      finished.fetch_add(1, std::memory_order_release);
-    });
-  });
-  (void)finished.load(std::memory_order_acquire);
+  forks.fetch_add(1, std::memory_order_release);
+  tbb_loop(count, run_body, &body);
+  (void)joins.load(std::memory_order_acquire);
 }
 
 }  // namespace lemma
