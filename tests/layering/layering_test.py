@@ -85,8 +85,8 @@ class LibraryTest(CheckTest):
         "OpenImageIO/imageio.h": "src/render/image_file.cpp",
         "CLI/CLI.hpp": "src/app/options.cpp",
         "nlohmann/json.hpp": "src/app/summary.cpp",
-        "tbb/parallel_for.h": "src/core/parallel.cpp",
-        "oneapi/tbb/parallel_for.h": "src/core/parallel.cpp",
+        "tbb/parallel_for.h": "src/core/tbb_loop.cpp",
+        "oneapi/tbb/parallel_for.h": "src/core/tbb_loop.cpp",
     }
     OUTSIDE = ("accel/grid.cpp", "src/core/vec.h", "src/lights/power.cpp", "integrators/mis.cpp")
 
