@@ -127,10 +127,10 @@ class StatsTest(LemmaTest):
         return json.loads((self.folder / "stats.json").read_text(encoding="utf-8"))
 
     def test_holds_the_figures_of_the_run(self):
-        stats = self.stats("--accel", "grid", "--threads", 2, "--seed", 3, size="20x10", spp=5)
+        stats = self.stats("--accel", "grid", "--threads", 3, "--seed", 4, size="20x10", spp=5)
         self.assertEqual(stats["accel"], "grid")
-        self.assertEqual(stats["threads"], 2)
-        self.assertEqual(stats["seed"], 3)
+        self.assertEqual(stats["threads"], 3)
+        self.assertEqual(stats["seed"], 4)
         self.assertEqual((stats["width"], stats["height"], stats["spp"]), (20, 10, 5))
         self.assertEqual(stats["camera_samples"], 20 * 10 * 5)
         self.assertGreater(stats["rays"], stats["camera_samples"])
