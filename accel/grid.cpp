@@ -2,8 +2,7 @@
 
 #include "accel/accelerator.h"
 #include "accel/grid_cells.h"
-#include "accel/grid_walk.h"
-#include "accel/watertight.h"
+#include "accel/grid_trace.h"
 
 namespace lemma {
 namespace {
@@ -11,46 +10,33 @@ namespace {
 class Grid final : public Accelerator {
  public:
   Grid(std::span<const Triangle> triangles, const GridResolution& resolution)
-      : triangles_(triangles), cells_(build_grid_cells(triangles, resolution)) {}
+      : cells_(build_grid_cells(triangles, resolution)),
+        trace_(grid_traces().front()),
+        triangles_(triangles.size()) {}
 
   std::optional<Hit> closest_hit(const Ray& ray) const override {
     const ShearedRay sheared(ray);
     Hit best = no_hit(sheared);
-    for (GridWalk walk(cells_, ray); !walk.done(); walk.step()) {
-      for (const std::uint32_t i : cells_.list(walk.cell())) intersect(sheared, triangles_[i], i, best);
-      // A hit may lie beyond this cell: it stands only when no later cell can hold a nearer one.
-      if (best.t <= walk.cell_exit()) break;
-    }
+    trace_.closest(cells_, ray, sheared, best);
     if (best.t < ray.t_max) return best;
     return std::nullopt;
   }
 
-  bool occluded(const Ray& ray) const override {
-    const ShearedRay sheared(ray);
-    Hit best = no_hit(sheared);
-    for (GridWalk walk(cells_, ray); !walk.done(); walk.step()) {
-      for (const std::uint32_t i : cells_.list(walk.cell())) {
-        if (intersect(sheared, triangles_[i], i, best)) return true;
-      }
-      if (best.t <= walk.cell_exit()) break;
-    }
-    return false;
-  }
+  bool occluded(const Ray& ray) const override { return trace_.any(cells_, ray, ShearedRay(ray)); }
 
-  std::size_t memory_bytes() const override {
-    return (cells_.first.capacity() + cells_.references.capacity()) * sizeof(std::uint32_t);
-  }
+  std::size_t memory_bytes() const override { return cells_.memory_bytes(); }
 
   std::string description() const override {
-    const auto triangles = static_cast<double>(std::max<std::size_t>(triangles_.size(), 1));
-    return fmt::format("grid of {} x {} x {} cells, {:.1f} references a triangle", cells_.counts[0],
-                       cells_.counts[1], cells_.counts[2],
-                       static_cast<double>(cells_.references.size()) / triangles);
+    const auto triangles = static_cast<double>(std::max<std::size_t>(triangles_, 1));
+    return fmt::format("grid of {} x {} x {} cells, {} of them grids, {:.1f} references a triangle, {}",
+                       cells_.counts[0], cells_.counts[1], cells_.counts[2], cells_.children.size(),
+                       static_cast<double>(cells_.reference_count()) / triangles, trace_.name);
   }
 
  private:
-  std::span<const Triangle> triangles_;
   GridCells cells_;
+  GridTrace trace_;
+  std::size_t triangles_;
 };
 
 }  // namespace

@@ -1,18 +1,49 @@
 #include "accel/grid_cells.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "accel/grid_overlap.h"
 #include "src/core/bounds.h"
 #include "src/core/error_bound.h"
+#include "src/core/parallel.h"
 
 namespace lemma {
 namespace {
 
-constexpr double kDensity = 8;          // cells a triangle: within 10 % of the best from 3e3 to 1e6 triangles
-constexpr double kMaxCells = 1u << 28;  // 1 GiB of list heads
+constexpr double kDensity = 4;              // cells a triangle
+constexpr double kMaxCells = 1u << 28;      // 1 GiB of counters while building
 constexpr double kMaxCellsPerAxis = 65535;  // the cell index stays exact, the margin above rounding
+
+constexpr std::size_t kCrowd = 100;  // triangles of a cell that are worth a grid of their own
+constexpr double kChildDensity = 2;  // its cells a triangle
+constexpr double kMaxCopies = 8;     // its references a triangle; more: they do not come apart
+constexpr int kMaxDepth = 3;         // grids within grids
+
+constexpr std::size_t kChunk = 4096;  // triangles that one task sorts in
+constexpr int kCellsPerBrick = 64;
+
+/// A cell is widened by this part of its size, for the rounding of the walk: in double, and recomputed from
+/// indices, it errs by less than 2^-40 of the box, and that is less than 2^-24 of a cell.
+constexpr double kCellMargin = 1.0 / 1024;
+
+/// And by this part of the scene's size, for the rounding of hits: a hit lies within kPlaneError * kRoundoff
+/// * M of its triangle (src/core/error_bound.h), where M is at most 8 scene sizes for rays that start within
+/// seven of the scene.
+constexpr double kReachMargin = 8 * kPlaneError * kRoundoff;
+
+/// Some of the triangles of a scene, and the box that a grid of them covers.
+struct Content {
+  std::span<const Triangle> triangles;
+  std::span<const std::uint32_t> selected;  // indices of triangles, ascending
+  Vec3d lo, hi;
+  double reach;  // largest coordinate difference in the scene
+};
 
 double target_cells(const GridResolution& resolution, std::size_t triangles) {
   if (resolution.cells > 0) return static_cast<double>(resolution.cells);
@@ -20,12 +51,24 @@ double target_cells(const GridResolution& resolution, std::size_t triangles) {
   return density * static_cast<double>(std::max<std::size_t>(triangles, 1));
 }
 
-/// The box of the cells: the scene's, widened by some roundings so that no triangle lies on its boundary.
-void place_box(const Bounds& bounds, GridCells& grid) {
-  const Vec3d lo(bounds.lo), hi(bounds.hi);
-  const double pad = 16 * kRoundoff * (max_norm(hi - lo) + std::max(max_norm(lo), max_norm(hi)));
-  grid.lo = lo - Vec3d(pad);
-  grid.hi = hi + Vec3d(pad);
+/// A grid over the content's box, without cells yet.
+GridCells lay_out(const Content& content, double target) {
+  GridCells grid;
+  grid.lo = content.lo;
+  grid.hi = content.hi;
+  const Vec3d extent = grid.hi - grid.lo;
+  grid.counts = cell_counts(extent, std::min(target, kMaxCells));
+  std::size_t bricks = 1;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    grid.bricks_per_axis[axis] = (grid.counts[axis] + GridCells::kBrick - 1) / GridCells::kBrick;
+    bricks *= static_cast<std::size_t>(grid.bricks_per_axis[axis]);
+    grid.cell_size[k] = extent[k] / grid.counts[axis];
+    grid.cells_per_unit[k] = 1 / grid.cell_size[k];
+    grid.margin[k] = grid.cell_size[k] * kCellMargin + kReachMargin * content.reach;
+  }
+  grid.bricks.resize(bricks);
+  return grid;
 }
 
 struct CellRange {
@@ -39,27 +82,35 @@ CellRange touched_cells(const GridCells& grid, const Triangle& triangle) {
   CellRange range{};
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    const auto cell = [&](double x, double margin) {
-      const double position = (x - grid.lo[k]) * grid.cells_per_unit[k] + margin;
+    const auto cell = [&](double x) {
+      const double position = (x - grid.lo[k]) * grid.cells_per_unit[k];
       return static_cast<int>(std::clamp(std::floor(position), 0.0, grid.counts[axis] - 1.0));
     };
-    range.first[axis] = cell(box.lo[k], -GridCells::kCellMargin);
-    range.last[axis] = cell(box.hi[k], GridCells::kCellMargin);
+    range.first[axis] = cell(box.lo[k] - grid.margin[k]);
+    range.last[axis] = cell(box.hi[k] + grid.margin[k]);
   }
   return range;
 }
 
-/// Calls visit(cell) for every cell that the triangle overlaps.
+/// Cells numbered brick by brick: 64 times the brick's index plus the bit of the cell in it.
+std::uint32_t cell_number(const GridCells& grid, const std::array<int, 3>& cell) {
+  const std::size_t brick = grid.brick_index(cell[0] >> 2, cell[1] >> 2, cell[2] >> 2);
+  return static_cast<std::uint32_t>(brick * kCellsPerBrick) +
+         static_cast<std::uint32_t>((cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 3) << 4);
+}
+
+/// Calls visit(number) for every cell that the triangle overlaps.
 template <class Visit>
 void for_each_overlapped_cell(const GridCells& grid, const Triangle& triangle, const Visit& visit) {
   const CellRange range = touched_cells(grid, triangle);
-  const BoxOverlap overlap(triangle, grid.cell_size * (0.5 + GridCells::kCellMargin));
+  if (range.first == range.last) return visit(cell_number(grid, range.first));
+  const BoxOverlap overlap(triangle, grid.cell_size * 0.5 + grid.margin);
   std::array<int, 3> cell{};
   for (cell[2] = range.first[2]; cell[2] <= range.last[2]; ++cell[2]) {
     for (cell[1] = range.first[1]; cell[1] <= range.last[1]; ++cell[1]) {
       for (cell[0] = range.first[0]; cell[0] <= range.last[0]; ++cell[0]) {
-        const Vec3d position(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5);
-        if (overlap.with_box_at(grid.lo + position * grid.cell_size)) visit(grid.index(cell));
+        const Vec3d centre = grid.lo + Vec3d(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5) * grid.cell_size;
+        if (overlap.with_box_at(centre)) visit(cell_number(grid, cell));
       }
     }
   }
@@ -69,14 +120,186 @@ struct Reference {
   std::uint32_t cell, triangle;
 };
 
-/// Turns references in order of triangles into one list a cell, each still in order of triangles.
-void sort_into_lists(std::span<const Reference> references, std::size_t cells, GridCells& grid) {
-  grid.first.assign(cells + 1, 0);
-  for (const Reference& r : references) ++grid.first[r.cell + 1];
-  for (std::size_t c = 0; c < cells; ++c) grid.first[c + 1] += grid.first[c];
-  std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-  grid.references.resize(references.size());
-  for (const Reference& r : references) grid.references[next[r.cell]++] = r.triangle;
+/// The references of all triangles, in chunks of consecutive triangles.
+std::vector<std::vector<Reference>> find_references(const Content& content, const GridCells& grid) {
+  std::vector<std::vector<Reference>> chunks((content.selected.size() + kChunk - 1) / kChunk);
+  parallel_for(chunks.size(), [&](std::size_t c) {
+    const std::size_t end = std::min((c + 1) * kChunk, content.selected.size());
+    for (std::size_t i = c * kChunk; i < end; ++i) {
+      const std::uint32_t triangle = content.selected[i];
+      for_each_overlapped_cell(grid, content.triangles[triangle], [&](std::uint32_t cell) {
+        chunks[c].push_back({cell, triangle});
+      });
+    }
+  });
+  return chunks;
+}
+
+/// Marks the cells that have references and numbers their lists; turns `counts`, the length of each cell's
+/// list, into where it begins.
+void number_lists(GridCells& grid, std::vector<std::uint32_t>& counts) {
+  std::uint32_t references = 0;
+  for (std::size_t b = 0; b < grid.bricks.size(); ++b) {
+    Brick& brick = grid.bricks[b];
+    brick.first_list = static_cast<std::uint32_t>(grid.first.size());
+    for (std::size_t bit = 0; bit < kCellsPerBrick; ++bit) {
+      std::uint32_t& count = counts[b * kCellsPerBrick + bit];
+      if (count == 0) continue;
+      brick.occupied |= std::uint64_t{1} << bit;
+      grid.first.push_back(references);
+      references += std::exchange(count, references);
+    }
+  }
+  grid.first.push_back(references);
+}
+
+/// Sorts the references by cell, then by triangle. Threads place a list's entries in any order; sorting it
+/// makes the result the same for any number of them.
+void sort_into_lists(const std::vector<std::vector<Reference>>& chunks, GridCells& grid) {
+  std::vector<std::uint32_t> next(grid.bricks.size() * kCellsPerBrick, 0);
+  parallel_for(chunks.size(), [&](std::size_t c) {
+    for (const Reference& r : chunks[c])
+      std::atomic_ref(next[r.cell]).fetch_add(1, std::memory_order_relaxed);
+  });
+  number_lists(grid, next);
+  grid.references.resize(grid.first.back());
+  parallel_for(chunks.size(), [&](std::size_t c) {
+    for (const Reference& r : chunks[c])
+      grid.references[std::atomic_ref(next[r.cell]).fetch_add(1, std::memory_order_relaxed)] = r.triangle;
+  });
+  parallel_for((grid.list_count() + kChunk - 1) / kChunk, [&](std::size_t c) {
+    const std::size_t end = std::min((c + 1) * kChunk, grid.list_count());
+    for (std::size_t i = c * kChunk; i < end; ++i)
+      std::sort(grid.references.begin() + grid.first[i], grid.references.begin() + grid.first[i + 1]);
+  });
+}
+
+/// Chessboard distances from each brick to the nearest occupied one, in two sweeps over half the neighbours.
+/// Source: Borgefors, Distance Transformations in Digital Images, CVGIP 34(3), 1986.
+void find_clearances(GridCells& grid) {
+  const auto [nx, ny, nz] = grid.bricks_per_axis;
+  const auto far = static_cast<std::uint32_t>(std::max({nx, ny, nz}));
+  for (Brick& b : grid.bricks) b.clearance = b.occupied != 0 ? 0 : far;
+  const auto relax = [&](int x, int y, int z, int sign) {
+    std::uint32_t& own = grid.bricks[grid.brick_index(x, y, z)].clearance;
+    if (own == 0) return;
+    for (int i = 0; i < 13; ++i) {  // the neighbours that this sweep has passed
+      const int u = x + sign * (i % 3 - 1), v = y + sign * (i / 3 % 3 - 1), w = z + sign * (i / 9 - 1);
+      if (u < 0 || v < 0 || w < 0 || u >= nx || v >= ny || w >= nz) continue;
+      own = std::min(own, grid.bricks[grid.brick_index(u, v, w)].clearance + 1);
+    }
+  };
+  for (int z = 0; z < nz; ++z)
+    for (int y = 0; y < ny; ++y)
+      for (int x = 0; x < nx; ++x) relax(x, y, z, 1);
+  for (int z = nz - 1; z >= 0; --z)
+    for (int y = ny - 1; y >= 0; --y)
+      for (int x = nx - 1; x >= 0; --x) relax(x, y, z, -1);
+}
+
+void pack_vertices(std::span<const Triangle> triangles, GridCells& grid) {
+  grid.vertices.resize(9 * grid.references.size() + GridCells::kOverread);
+  parallel_for((grid.list_count() + kChunk - 1) / kChunk, [&](std::size_t c) {
+    const std::size_t end = std::min((c + 1) * kChunk, grid.list_count());
+    for (std::size_t i = c * kChunk; i < end; ++i) {
+      const auto list = grid.list(i);
+      float* out = grid.vertices.data() + 9ull * grid.first[i];
+      for (std::size_t j = 0; j < list.size(); ++j) {
+        const Triangle& t = triangles[list[j]];
+        const std::array<float, 9> coordinates{t.v0.x, t.v0.y, t.v0.z, t.v1.x, t.v1.y,
+                                               t.v1.z, t.v2.x, t.v2.y, t.v2.z};
+        for (std::size_t a = 0; a < 9; ++a) out[a * list.size() + j] = coordinates[a];
+      }
+    }
+  });
+}
+
+/// Takes the lists that children stand for out of the references.
+void empty_lists(GridCells& grid) {
+  std::vector<std::uint32_t> references, first;
+  std::size_t next = 0;
+  for (std::uint32_t i = 0; i < grid.list_count(); ++i) {
+    first.push_back(static_cast<std::uint32_t>(references.size()));
+    if (next < grid.crowded.size() && grid.crowded[next] == i) {
+      ++next;
+      continue;
+    }
+    references.insert(references.end(), grid.list(i).begin(), grid.list(i).end());
+  }
+  first.push_back(static_cast<std::uint32_t>(references.size()));
+  grid.references = std::move(references);
+  grid.first = std::move(first);
+}
+
+GridCells build(const Content& content, double target, int depth);
+
+/// A grid for a crowded list, if that takes its triangles apart.
+/// @param lo, hi  the cell, margin included
+std::optional<GridCells> split_crowd(const Content& parent, std::span<const std::uint32_t> list, Vec3d lo,
+                                     Vec3d hi, int depth) {
+  Bounds bounds;
+  for (const std::uint32_t i : list) bounds.add(parent.triangles[i]);
+  const double pad = kReachMargin * parent.reach;
+  for (int k = 0; k < 3; ++k) {
+    lo[k] = std::max(lo[k], bounds.lo[k] - pad);
+    hi[k] = std::min(hi[k], bounds.hi[k] + pad);
+  }
+  const auto size = static_cast<double>(list.size());
+  GridCells child = build({parent.triangles, list, lo, hi, parent.reach}, kChildDensity * size, depth + 1);
+  if (static_cast<double>(child.reference_count()) > kMaxCopies * size) return std::nullopt;
+  return child;
+}
+
+/// The cell of each list, as cell_number.
+std::vector<std::uint32_t> cells_of_lists(const GridCells& grid) {
+  std::vector<std::uint32_t> cells;
+  for (std::size_t b = 0; b < grid.bricks.size(); ++b) {
+    for (std::uint64_t rest = grid.bricks[b].occupied; rest != 0; rest &= rest - 1)
+      cells.push_back(static_cast<std::uint32_t>(b * kCellsPerBrick) +
+                      static_cast<std::uint32_t>(std::countr_zero(rest)));
+  }
+  return cells;
+}
+
+/// The place of cell `number` of cell_number().
+std::array<int, 3> cell_place(const GridCells& grid, std::uint32_t number) {
+  const int bit = static_cast<int>(number % kCellsPerBrick),
+            brick = static_cast<int>(number / kCellsPerBrick);
+  const auto [nx, ny, nz] = grid.bricks_per_axis;
+  return {brick % nx * 4 + (bit & 3), brick / nx % ny * 4 + (bit >> 2 & 3), brick / nx / ny * 4 + (bit >> 4)};
+}
+
+/// Replaces crowded lists by grids.
+void split_crowds(const Content& content, GridCells& grid, int depth) {
+  if (depth >= kMaxDepth) return;
+  std::vector<std::uint32_t> crowded;
+  for (std::uint32_t i = 0; i < grid.list_count(); ++i) {
+    if (grid.list(i).size() > kCrowd && grid.list(i).size() < content.selected.size()) crowded.push_back(i);
+  }
+  if (crowded.empty()) return;
+  const std::vector<std::uint32_t> cells = cells_of_lists(grid);
+  std::vector<std::optional<GridCells>> children(crowded.size());
+  parallel_for(crowded.size(), [&](std::size_t i) {
+    const auto place = cell_place(grid, cells[crowded[i]]);
+    const Vec3d lo = grid.lo + Vec3d(place[0], place[1], place[2]) * grid.cell_size;
+    children[i] = split_crowd(content, grid.list(crowded[i]), lo - grid.margin,
+                              lo + grid.cell_size + grid.margin, depth);
+  });
+  for (std::size_t i = 0; i < crowded.size(); ++i) {
+    if (!children[i]) continue;
+    grid.crowded.push_back(crowded[i]);
+    grid.children.push_back(std::move(*children[i]));
+  }
+  empty_lists(grid);
+}
+
+GridCells build(const Content& content, double target, int depth) {
+  GridCells grid = lay_out(content, target);
+  sort_into_lists(find_references(content, grid), grid);
+  split_crowds(content, grid, depth);
+  find_clearances(grid);
+  pack_vertices(content.triangles, grid);
+  return grid;
 }
 
 }  // namespace
@@ -107,28 +330,39 @@ std::array<int, 3> cell_counts(const Vec3d& extent, double target) {
   return counts;
 }
 
+const GridCells& GridCells::child(std::size_t i) const {
+  const auto place = std::lower_bound(crowded.begin(), crowded.end(), i);
+  return children[static_cast<std::size_t>(place - crowded.begin())];
+}
+
+std::size_t GridCells::memory_bytes() const {
+  std::size_t bytes = bricks.capacity() * sizeof(Brick) + vertices.capacity() * sizeof(float) +
+                      (first.capacity() + references.capacity() + crowded.capacity()) * sizeof(std::uint32_t);
+  for (const GridCells& child : children) bytes += sizeof(GridCells) + child.memory_bytes();
+  return bytes;
+}
+
+std::size_t GridCells::reference_count() const {
+  return std::accumulate(
+      children.begin(), children.end(), references.size(),
+      [](std::size_t sum, const GridCells& child) { return sum + child.reference_count(); });
+}
+
 GridCells build_grid_cells(std::span<const Triangle> triangles, const GridResolution& resolution) {
-  GridCells grid;
   if (triangles.empty()) {
-    grid.first = {0, 0};
+    GridCells grid;
+    grid.first = {0};
     return grid;
   }
-  place_box(bounds_of(triangles), grid);
-  const Vec3d extent = grid.hi - grid.lo;
-  grid.counts = cell_counts(extent, std::min(target_cells(resolution, triangles.size()), kMaxCells));
-  for (int k = 0; k < 3; ++k) {
-    grid.cell_size[k] = extent[k] / grid.counts[static_cast<std::size_t>(k)];
-    grid.cells_per_unit[k] = 1 / grid.cell_size[k];
-  }
-  std::vector<Reference> references;
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    for_each_overlapped_cell(grid, triangles[i], [&](std::size_t cell) {
-      references.push_back({static_cast<std::uint32_t>(cell), i});
-    });
-  }
-  const std::size_t cells = grid.index({grid.counts[0] - 1, grid.counts[1] - 1, grid.counts[2] - 1}) + 1;
-  sort_into_lists(references, cells, grid);
-  return grid;
+  const Bounds bounds = bounds_of(triangles);
+  const Vec3d lo(bounds.lo), hi(bounds.hi);
+  const double reach = max_norm(hi - lo);
+  // Widened by some roundings, so that no triangle lies on the boundary.
+  const double pad = 16 * kRoundoff * (reach + std::max(max_norm(lo), max_norm(hi)));
+  std::vector<std::uint32_t> all(triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return build({triangles, all, lo - Vec3d(pad), hi + Vec3d(pad), reach},
+               target_cells(resolution, triangles.size()), 0);
 }
 
 }  // namespace lemma

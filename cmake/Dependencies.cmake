@@ -15,6 +15,7 @@ lemma_require(tinyobjloader libtinyobjloader-dev CONFIG)
 lemma_require(pugixml libpugixml-dev CONFIG)
 lemma_require(OpenEXR libopenexr-dev CONFIG) # OpenImageIO's own configuration needs it but does not look for it
 lemma_require(OpenImageIO "libopenimageio-dev openimageio-tools" CONFIG) # its configuration checks for the tools
+lemma_require(hwy libhwy-dev CONFIG)
 lemma_require(CLI11 libcli11-dev CONFIG)
 lemma_require(fmt libfmt-dev CONFIG)
 lemma_require(nlohmann_json nlohmann-json3-dev CONFIG)

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "accel/accelerator.h"
+#include "accel/grid_trace.h"
 #include "src/core/bounds.h"
 #include "tests/support/images.h"
 #include "tests/support/meshes.h"
@@ -74,6 +75,44 @@ TEST(GridParity, ResolutionChangesNothing) {
                           .value()(triangles, {{GridResolution::Rule::density, cells}});
     expect_same_hits(*grid, *make("brute", triangles), rays);
   }
+}
+
+/// Every instruction set that this machine has: the same hits, bit for bit.
+TEST(GridParity, InstructionSetsAgree) {
+  const auto triangles = test::random_triangles(2000, 0.1f, 39);
+  const GridCells cells = build_grid_cells(triangles, {GridResolution::Rule::density, 200});
+  const auto rays = rays_around(bounds_of(triangles), 2000);
+  const auto brute = make("brute", triangles);
+  ASSERT_FALSE(grid_traces().empty());
+  for (const GridTrace& trace : grid_traces()) {
+    std::printf("%s\n", trace.name);
+    for (const Ray& ray : rays) {
+      const ShearedRay sheared(ray);
+      Hit best = no_hit(sheared);
+      trace.closest(cells, ray, sheared, best);
+      const auto expected = brute->closest_hit(ray);
+      ASSERT_EQ(best, expected.value_or(no_hit(sheared))) << trace.name;
+      ASSERT_EQ(trace.any(cells, ray, sheared), expected.has_value()) << trace.name;
+    }
+  }
+}
+
+/// A small sphere of many triangles in a large box, in a cell of its own: the cell becomes a grid.
+TEST(GridParity, CrowdedCells) {
+  auto triangles = test::inward_box({-10, -10, -10}, {10, 10, 10});
+  const auto ball = test::sphere_mesh({3.1f, 2.2f, 1.3f}, 0.05f, 30, 40);
+  triangles.insert(triangles.end(), ball.begin(), ball.end());
+  ASSERT_GT(build_grid_cells(triangles, {}).children.size(), 0u);
+  const auto grid = make("grid", triangles), brute = make("brute", triangles);
+  expect_same_hits(*grid, *brute, rays_around(bounds_of(triangles), 300));
+  expect_same_hits(*grid, *brute, rays_around(bounds_of(ball), 1000));
+}
+
+/// Vertices at which 2000 triangles meet: no grid takes them apart.
+TEST(GridParity, TrianglesThatDoNotComeApart) {
+  std::vector<Triangle> fan;
+  for (const Triangle& t : test::random_triangles(2000, 0.3f, 40)) fan.push_back({Vec3(0.5f), t.v1, t.v2});
+  expect_same_hits(*make("grid", fan), *make("brute", fan), rays_around(bounds_of(fan), 500));
 }
 
 TEST(GridParity, FlatScenesAndSingleTriangles) {

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <optional>
+#include <set>
+
 #include "accel/grid_cells.h"
 #include "accel/grid_overlap.h"
 #include "accel/grid_walk.h"
@@ -24,11 +28,11 @@ TEST(GridCells, RulesOfResolution) {
   const auto triangles = test::random_triangles(1000, 0.05f, 1);
   const auto cells = [&](const GridResolution& resolution) {
     const GridCells grid = build_grid_cells(triangles, resolution);
-    return grid.first.size() - 1;
+    return grid.counts[0] * grid.counts[1] * grid.counts[2];
   };
   // Rounding each axis to whole cells changes the number by less than half a cell an axis: 1.5 / 10 of 1000
   // cells.
-  EXPECT_NEAR(static_cast<double>(cells({})), 8000, 0.08 * 8000);
+  EXPECT_NEAR(static_cast<double>(cells({})), 4000, 0.1 * 4000);
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::twenty_seven, 0})), 27000, 0.05 * 27000);
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::density, 100000})), 100000, 0.04 * 100000);
 }
@@ -57,31 +61,44 @@ TEST(BoxOverlap, DeniesBoxesBesideTheTriangle) {
   EXPECT_FALSE(overlap.with_box_at({0.8, 0.8, 0}));     // beyond its hypotenuse
 }
 
-/// Consecutive cells share a face, and the ray's points lie in the cell that is said to hold them.
-TEST(GridWalk, VisitsTheCellsAlongTheRay) {
-  const GridCells grid = build_grid_cells(test::random_triangles(2000, 0.1f, 4), {});
+/// The list of the cell that p lies in, if it is occupied and p not within rounding of its faces.
+std::optional<std::size_t> list_inside(const GridCells& grid, const Vec3d& p) {
+  std::array<int, 3> cell{};
+  for (int k = 0; k < 3; ++k) {
+    const double position = (p[k] - grid.lo[k]) * grid.cells_per_unit[k];
+    const double rest = position - std::floor(position);
+    if (rest < 1e-6 || rest > 1 - 1e-6) return std::nullopt;
+    cell[static_cast<std::size_t>(k)] = static_cast<int>(std::floor(position));
+    if (position < 0 || position >= grid.counts[static_cast<std::size_t>(k)]) return std::nullopt;
+  }
+  const Brick& brick = grid.bricks[grid.brick_index(cell[0] / 4, cell[1] / 4, cell[2] / 4)];
+  const std::uint64_t bit = std::uint64_t{1} << (cell[0] % 4 + cell[1] % 4 * 4 + cell[2] % 4 * 16);
+  if ((brick.occupied & bit) == 0) return std::nullopt;
+  return brick.first_list + static_cast<std::size_t>(std::popcount(brick.occupied & (bit - 1)));
+}
+
+/// The lists of the cells along a ray, in order, are those that a search of points along it finds.
+TEST(GridWalk, VisitsTheOccupiedCellsAlongTheRay) {
+  const GridCells grid = build_grid_cells(test::random_triangles(300, 0.05f, 4), {});
+  std::size_t visits = 0;
   for (std::uint32_t i = 0; i < 2000; ++i) {
     Sampler random(5, i, 0);
     const Vec3 from = test::random_point(random) * 3.0f - Vec3(1), to = test::random_point(random);
     const Ray ray{from, to - from};
-    double entered = 0;
-    for (GridWalk walk(grid, ray); !walk.done(); walk.step()) {
-      ASSERT_GE(walk.cell_exit(), entered - 1e-12);
-      entered = walk.cell_exit();
-      // Just before the exit the point lies in this cell, to the rounding of t in double.
-      const Vec3d p = Vec3d(ray.origin) + Vec3d(ray.direction) * walk.cell_exit();
-      const auto counts = grid.counts;
-      const auto x = static_cast<int>(walk.cell() % static_cast<std::size_t>(counts[0]));
-      const auto rest = walk.cell() / static_cast<std::size_t>(counts[0]);
-      const Vec3d cell(x, static_cast<double>(rest % static_cast<std::size_t>(counts[1])),
-                       static_cast<double>(rest / static_cast<std::size_t>(counts[1])));
-      for (int k = 0; k < 3; ++k) {
-        const double position = (p[k] - grid.lo[k]) * grid.cells_per_unit[k] - cell[k];
-        ASSERT_GT(position, -1e-9);
-        ASSERT_LT(position, 1 + 1e-9);
-      }
+    std::set<std::size_t> visited;
+    double left = 0;
+    for (GridWalk walk(grid, WalkedRay(ray), ray.t_max); !walk.done(); walk.step(ray.t_max)) {
+      EXPECT_GE(walk.cell_exit(), left - 1e-12);
+      left = walk.cell_exit();
+      EXPECT_TRUE(visited.insert(walk.list()).second) << "a cell was visited twice";
+    }
+    visits += visited.size();
+    for (double t = 0; t < 3; t += 0.01) {
+      const auto list = list_inside(grid, Vec3d(ray.origin) + Vec3d(ray.direction) * t);
+      EXPECT_TRUE(!list || visited.contains(*list));
     }
   }
+  EXPECT_GT(visits, 2000u);
 }
 
 }  // namespace

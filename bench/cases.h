@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "accel/accelerator.h"
+#include "src/core/named.h"
+#include "src/core/ray.h"
+#include "src/scene/camera.h"
+
+namespace lemma::bench {
+
+/// What is built and traced.
+struct Case {
+  std::vector<Triangle> triangles;
+  CameraView view;
+  std::vector<Triangle> lights;  // shadow rays aim at points of these
+};
+
+/// Makes the case of a name of case_names(), "sphere-N" or "field-N" with a number of triangles N (1000, 16k,
+/// 4M), or of the scene in a folder or file.
+[[nodiscard]] Case make_case(const std::string& name);
+
+/// The four cases of the table of ratios.
+[[nodiscard]] std::span<const std::string> case_names();
+
+/// Rays as a renderer traces them, in its order: one a pixel in rows of 16, at fixed random numbers.
+struct RecordedRays {
+  std::vector<Ray> primary;  // from the camera
+  std::vector<Ray> bounce;   // from where those hit, cosine-distributed
+  std::vector<Ray> shadow;   // from the same points to points of the lights
+};
+[[nodiscard]] RecordedRays record_rays(const Case& scene, const Accelerator& accel);
+
+/// How rays are asked for.
+struct RayKind {
+  std::vector<Ray> RecordedRays::*rays;
+  bool any_hit, batch;  // a batch is a row of 16
+};
+[[nodiscard]] std::span<const Named<RayKind>> ray_kinds();
+
+/// Traces all of the rays.
+void trace(const Accelerator& accel, const RecordedRays& rays, const RayKind& kind);
+
+}  // namespace lemma::bench
