@@ -12,7 +12,7 @@ class SolidAngleSampler final : public LightSampler {
  public:
   explicit SolidAngleSampler(std::span<const Emitter> emitters) : emitters_(emitters), weights_(emitters) {}
 
-  LightQuery query(const Vec3& x) const override { return {x, weights_.total(x)}; }
+  LightQuery query(const Vec3& x, const Vec3& n) const override { return {x, n, weights_.total(x)}; }
 
   std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const override {
     const double target = at.total_weight * (random.next_bits() * 0x1p-32);

@@ -50,16 +50,14 @@ void expect_equal_means(const Scene& scene, const std::vector<Run>& runs) {
 std::vector<Run> all_estimators(std::uint32_t spp) {
   IntegratorOptions fixed;
   fixed.roulette = Roulette::fixed;
+  IntegratorOptions squared;
+  squared.heuristic = Heuristic::power;
   return {
-      {{"embree", "mis", "power"}, 4 * spp},
-      {{"grid", "mis", "power"}, spp},
-      {{"embree", "mis", "power", fixed}, 4 * spp},
-      {{"embree", "mis", "radiance-area"}, 4 * spp},
-      {{"embree", "mis", "solid-angle"}, spp},
-      {{"embree", "direct", "power"}, 32 * spp},
-      {{"embree", "direct", "power", fixed}, 32 * spp},
-      {{"embree", "direct", "solid-angle"}, 3 * spp},
-      {{"embree", "brdf", "power"}, 16 * spp},
+      {{"embree", "mis", "power"}, 4 * spp},          {{"grid", "mis", "power"}, spp},
+      {{"embree", "mis", "power", fixed}, 4 * spp},   {{"embree", "mis", "power", squared}, 4 * spp},
+      {{"embree", "mis", "radiance-area"}, 4 * spp},  {{"embree", "mis", "solid-angle"}, spp},
+      {{"embree", "direct", "power"}, 32 * spp},      {{"embree", "direct", "power", fixed}, 32 * spp},
+      {{"embree", "direct", "solid-angle"}, 3 * spp}, {{"embree", "brdf", "power"}, 16 * spp},
   };
 }
 

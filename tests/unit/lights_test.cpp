@@ -30,6 +30,8 @@ std::vector<Emitter> two_spheres() {
   return emitters;
 }
 
+const Vec3 kUp(0, 1, 0);
+
 class EveryStrategy : public testing::TestWithParam<std::string_view> {
  protected:
   [[nodiscard]] std::unique_ptr<const LightSampler> make(const std::vector<Emitter>& emitters) const {
@@ -40,7 +42,7 @@ class EveryStrategy : public testing::TestWithParam<std::string_view> {
 TEST_P(EveryStrategy, SampleAndPdfAgree) {
   const auto emitters = two_spheres();
   const auto lights = make(emitters);
-  const LightQuery at = lights->query({0.3f, 0, -0.2f});
+  const LightQuery at = lights->query({0.3f, 0, -0.2f}, kUp);
   int samples = 0;
   for (std::uint32_t i = 0; i < 5000; ++i) {
     Sampler random(21, i, 0);
@@ -90,7 +92,7 @@ TEST_P(EveryStrategy, EstimatesTheIrradianceOfUnoccludedTriangles) {
     }
     reference += e.radiance.g * std::abs(irradiance) / 2;
   }
-  const LightQuery at = lights->query(x);
+  const LightQuery at = lights->query(x, kUp);
   std::vector<double> values;
   for (std::uint32_t i = 0; i < 100000; ++i) {
     Sampler random(22, i, 0);
@@ -107,7 +109,7 @@ TEST_P(EveryStrategy, NothingFromBehindAndNothingInThePlane) {
   const std::vector<Emitter> one{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {1, 1, 1}, 0, 0}};  // emits towards +z
   const auto lights = make(one);
   for (const Vec3& x : {Vec3(0.2f, 0.2f, -1), Vec3(3, 3, 0)}) {
-    const LightQuery at = lights->query(x);
+    const LightQuery at = lights->query(x, kUp);
     Sampler random(23, 0, 0);
     EXPECT_FALSE(lights->sample(at, random));
     EXPECT_EQ(lights->pdf(at, 0, {0.2f, 0.2f, 0}).value, 0);
@@ -124,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Lights, EveryStrategy, testing::Values("radiance-area",
 TEST(RadianceArea, ChoosesLightsByRadianceAlone) {
   const auto emitters = two_spheres();
   const auto lights = find_named(light_samplers(), std::string_view("radiance-area")).value()(emitters);
-  const LightQuery at = lights->query({0, 100, 0});  // sees about the same half of both
+  const LightQuery at = lights->query({0, 100, 0}, -kUp);  // sees about the same half of both
   std::map<float, int> chosen;
   for (std::uint32_t i = 0; i < 20000; ++i) {
     Sampler random(24, i, 0);
