@@ -37,7 +37,8 @@ class HelpTest(LemmaTest):
         self.assertEqual(choices("--accel")[0], "embree", "the default comes first")
         self.assertLessEqual({"embree", "grid", "brute"}, set(choices("--accel")))
         self.assertLessEqual({"mis", "direct", "brdf"}, set(choices("--integrator")))
-        self.assertLessEqual({"power", "solid-angle", "radiance-area"}, set(choices("--lights")))
+        self.assertEqual(choices("--lights")[0], "tree")
+        self.assertLessEqual({"tree", "power", "solid-angle", "radiance-area"}, set(choices("--lights")))
         self.assertLessEqual({"throughput", "fixed"}, set(choices("--rr")))
 
     def test_help_tells_the_defaults(self):
