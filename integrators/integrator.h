@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "integrators/mis_options.h"
 #include "integrators/roulette.h"
 #include "integrators/tracer.h"
 #include "src/core/named.h"
@@ -41,6 +42,8 @@ class Integrator {
 
 struct IntegratorOptions {
   Roulette roulette = Roulette::throughput;
+  Heuristic heuristic = Heuristic::balance;               // of `mis`
+  CountedSamples counted_samples = CountedSamples::both;  // by `mis`
   int max_depth = kLastResortDepth;  // scattering events on a path at most: 1 is direct light
   bool emitters_reflect = false;     // emitters also reflect, as their materials say
 

@@ -40,7 +40,7 @@ class PathIntegrator final : public Integrator {
       }
       const Vertex<M> vertex(world.scene, ray, *hit);
       if constexpr (Technique::kSamplesLights) {
-        query = world.lights.query(vertex.origin());
+        query = world.lights.query(vertex.origin(), vertex.shading_normal());
         radiance += throughput * light_sample<M, Technique>(world, vertex, query, tracer, random);
       }
       const std::optional<ScatterSample> next = vertex.sample(random);

@@ -26,13 +26,16 @@ class Vertex {
     if (dot(normal, Vec3d(ray.direction)) > 0) normal = -normal;
     origin_ = offset_origin(point_at(triangle, hit.b1, hit.b2), normal, triangle);
     geometric_normal_ = Vec3(normal);
-    frame_ = frame_around(shading_normal(scene, ray, hit));
+    frame_ = frame_around(find_shading_normal(scene, ray, hit));
     wo_ = frame_.to_local(-ray.direction);
   }
 
   /// Where rays that leave start, off the surface by its error bound; also the point from which lights are
   /// looked at.
   [[nodiscard]] const Vec3& origin() const { return origin_; }
+
+  /// Unit; light arriving from below it is not reflected.
+  [[nodiscard]] const Vec3& shading_normal() const { return frame_.n; }
 
   /// f(wo, wi) cos(theta_i) for a unit direction in world space.
   [[nodiscard]] Rgb eval_cos(const Vec3& wi) const {
@@ -67,7 +70,7 @@ class Vertex {
     return true;
   }
 
-  [[nodiscard]] Vec3 shading_normal(const Scene& scene, const Ray& ray, const Hit& hit) const {
+  [[nodiscard]] Vec3 find_shading_normal(const Scene& scene, const Ray& ray, const Hit& hit) const {
     if constexpr (!M.smooth_normals) return geometric_normal_;
     const auto& [n0, n1, n2] = scene.normals[hit.triangle];
     const Vec3 n = n0 * (1 - hit.b1 - hit.b2) + n1 * hit.b1 + n2 * hit.b2;

@@ -98,6 +98,13 @@ void add_transport_options(CLI::App& app, RenderOptions& o) {
       app, "--lights", light_samplers(), [&o](auto& entry) { o.lights = entry; },
       "How points on lights are chosen");
   add_choice(
+      app, "--mis", heuristics(), [&o](auto& entry) { o.integrator_options.heuristic = entry.value; },
+      "Weights of --integrator mis");
+  add_choice(
+      app, "--technique", counted_samples(),
+      [&o](auto& entry) { o.integrator_options.counted_samples = entry.value; },
+      "Samples that --integrator mis counts");
+  add_choice(
       app, "--rr", roulettes(), [&o](auto& entry) { o.integrator_options.roulette = entry.value; },
       "Russian roulette");
   add_integer(

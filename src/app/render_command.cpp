@@ -44,14 +44,11 @@ LoadedScene load(const RenderOptions& options) {
 /// The options that the image depends on, as a command line would say them.
 std::string image_options(const RenderOptions& o, const CameraView& view) {
   const IntegratorOptions& i = o.integrator_options;
-  std::string_view roulette;
-  for (const auto& entry : roulettes()) {
-    if (entry.value == i.roulette) roulette = entry.name;
-  }
   return fmt::format(
-      "--accel {} --integrator {} --lights {} --rr {} --max-depth {} --phong-norm {} --emitters {} --spp {} "
-      "--seed {} --size {}x{}",
-      o.accel.name, o.integrator.name, o.lights.name, roulette, i.max_depth,
+      "--accel {} --integrator {} --lights {} --mis {} --technique {} --rr {} --max-depth {} --phong-norm {} "
+      "--emitters {} --spp {} --seed {} --size {}x{}",
+      o.accel.name, o.integrator.name, o.lights.name, name_of(heuristics(), i.heuristic),
+      name_of(counted_samples(), i.counted_samples), name_of(roulettes(), i.roulette), i.max_depth,
       o.load.phong_norm == PhongNorm::n_plus_1 ? "n+1" : "n+2", i.emitters_reflect ? "reflect" : "absorb",
       o.settings.spp, o.settings.seed, view.width, view.height);
 }

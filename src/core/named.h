@@ -24,6 +24,15 @@ template <class T>
   return std::nullopt;
 }
 
+/// The name of a value that the table holds.
+template <class T>
+[[nodiscard]] std::string_view name_of(std::span<const Named<T>> table, const T& value) {
+  for (const Named<T>& entry : table) {
+    if (entry.value == value) return entry.name;
+  }
+  return {};
+}
+
 /// "a, b, c": the accepted names, for messages.
 template <class T>
 [[nodiscard]] std::string list_names(std::span<const Named<T>> table) {

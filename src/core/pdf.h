@@ -28,4 +28,14 @@ using PdfSolidAngle = Pdf<struct PerSolidAngle>;  // [sr^-1]
   return 1 / (1 + b.value / a.value);
 }
 
+/// As balance_heuristic, with squared densities: a^2 / (a^2 + b^2). Their ratio is squared, so that neither
+/// densities of 1e30 nor of 1e-30 overflow or vanish.
+/// Source: Veach 1997, eq. 9.10 with beta = 2.
+[[nodiscard]] inline float power_heuristic(PdfSolidAngle a, PdfSolidAngle b) {
+  if (a.value == 0) return 0;
+  if (std::isinf(a.value)) return 1;
+  const float ratio = b.value / a.value;
+  return 1 / (1 + ratio * ratio);
+}
+
 }  // namespace lemma

@@ -24,13 +24,15 @@ struct LightSample {
 /// What a strategy needs to know about a reference point for both sampling and density: found once a point.
 struct LightQuery {
   Vec3 x;
+  Vec3 n;                   // unit shading normal: light from below its horizon is not reflected
   double total_weight = 0;  // of all emitters as seen from x, where the strategy weighs them so; else unused
 };
 
-/// Chooses points on emitters. The technique is: choose an emitter, then a direction on it; it counts only if
-/// that very emitter is what x sees there. The density of a direction is therefore that of the one emitter it
-/// hits first, without a sum over emitters behind it, and the weights of multiple importance sampling sum to
-/// 1 also where emitters overlap. All densities end in solid angle about x.
+/// Chooses points on emitters. The technique is: choose a light (an emitter, or emitters that are sampled as
+/// one), then a direction towards it; it counts only if what x sees there is the emitter returned, the first
+/// of the chosen light in that direction. The density of a direction is therefore that of the one light it
+/// hits first, without a sum over lights behind it, and the weights of multiple importance sampling sum to 1
+/// also where emitters overlap. All densities end in solid angle about x.
 class LightSampler {
  public:
   LightSampler() = default;
@@ -38,7 +40,7 @@ class LightSampler {
   LightSampler& operator=(const LightSampler&) = delete;
   virtual ~LightSampler() = default;
 
-  [[nodiscard]] virtual LightQuery query(const Vec3& x) const = 0;
+  [[nodiscard]] virtual LightQuery query(const Vec3& x, const Vec3& n) const = 0;
 
   /// @return nothing if the emitter chosen does not emit towards x
   [[nodiscard]] virtual std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const = 0;

@@ -29,15 +29,16 @@ class HelpTest(LemmaTest):
     def test_help_of_render_names_its_argument_and_options(self):
         text = self.assert_prints("render", "--help")
         self.assertRegex(text, r"(?m)^Usage: lemma render \[OPTIONS\] SCENE$")
-        wanted = ("output tonemap max-radiance gamma exposure stats progress quiet accel integrator lights rr "
-                  "max-depth phong-norm spp seed threads size").split()
+        wanted = ("output tonemap max-radiance gamma exposure stats progress quiet accel integrator lights mis "
+                  "technique rr max-depth phong-norm spp seed threads size").split()
         self.assertLessEqual({"--" + name for name in wanted}, set(render_options()))
 
     def test_help_of_render_lists_and_explains_the_names_that_options_accept(self):
         self.assertEqual(choices("--accel")[0], "embree", "the default comes first")
         self.assertLessEqual({"embree", "grid", "brute"}, set(choices("--accel")))
         self.assertLessEqual({"mis", "direct", "brdf"}, set(choices("--integrator")))
-        self.assertLessEqual({"power", "solid-angle", "radiance-area"}, set(choices("--lights")))
+        self.assertEqual(choices("--lights")[0], "tree")
+        self.assertLessEqual({"tree", "power", "solid-angle", "radiance-area"}, set(choices("--lights")))
         self.assertLessEqual({"throughput", "fixed"}, set(choices("--rr")))
 
     def test_help_tells_the_defaults(self):

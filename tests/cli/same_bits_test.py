@@ -26,6 +26,11 @@ class SameBitsTest(LemmaTest):
                     self.assert_threads_do_not_matter("--integrator", integrator, "--lights", lights,
                                                       scene=SCENES / "veach-mis", spp=1)
 
+    def test_one_technique_alone_is_the_integrator_of_its_samples(self):
+        for technique, integrator in (("light", "direct"), ("brdf", "brdf")):
+            self.assert_same_pixels(self.render_to("technique.exr", "--technique", technique, spp=4),
+                                    self.render_to("integrator.exr", "--integrator", integrator, spp=4))
+
     def test_grid_and_brute_force_give_the_same_pixels(self):
         for scene in ("cornell-box", "cornell-coplanar", "veach-mis"):
             with self.subTest(scene):

@@ -50,12 +50,18 @@ void expect_equal_means(const Scene& scene, const std::vector<Run>& runs) {
 std::vector<Run> all_estimators(std::uint32_t spp) {
   IntegratorOptions fixed;
   fixed.roulette = Roulette::fixed;
+  IntegratorOptions squared;
+  squared.heuristic = Heuristic::power;
   return {
       {{"embree", "mis", "power"}, 4 * spp},
       {{"grid", "mis", "power"}, spp},
       {{"embree", "mis", "power", fixed}, 4 * spp},
+      {{"embree", "mis", "power", squared}, 4 * spp},
       {{"embree", "mis", "radiance-area"}, 4 * spp},
       {{"embree", "mis", "solid-angle"}, spp},
+      {{"embree", "mis", "tree"}, spp},
+      {{"embree", "mis", "tree", squared}, spp},
+      {{"embree", "direct", "tree"}, 3 * spp},
       {{"embree", "direct", "power"}, 32 * spp},
       {{"embree", "direct", "power", fixed}, 32 * spp},
       {{"embree", "direct", "solid-angle"}, 3 * spp},
@@ -128,7 +134,7 @@ TEST(Furnace, ClosedBoxHasTheGeometricSeries) {
     const char *integrator, *lights;
   };
   std::vector<Case> cases;
-  for (const char* lights : {"power", "radiance-area", "solid-angle"}) {
+  for (const char* lights : {"tree", "power", "radiance-area", "solid-angle"}) {
     for (const auto& roulette : roulettes()) cases.push_back({0.5f, roulette.value, "mis", lights});
     cases.push_back({0.9f, Roulette::throughput, "mis", lights});
   }

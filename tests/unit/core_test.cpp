@@ -93,14 +93,19 @@ TEST(CosineHemisphere, ReachesNoDirectionBelowAndHasUnitLength) {
   }
 }
 
-TEST(BalanceHeuristic, WeightsOfBothTechniquesSumToOne) {
+TEST(Heuristics, WeightsOfBothTechniquesSumToOne) {
   for (const float a : {1e-30f, 1e-3f, 1.0f, 1e30f}) {
     for (const float b : {1e-30f, 1e-3f, 1.0f, 1e30f}) {
       EXPECT_NEAR(balance_heuristic({a}, {b}) + balance_heuristic({b}, {a}), 1, 4 * 0x1p-24);
+      EXPECT_NEAR(power_heuristic({a}, {b}) + power_heuristic({b}, {a}), 1, 4 * 0x1p-24);
     }
   }
   EXPECT_EQ(balance_heuristic({0}, {0}), 0);
   EXPECT_EQ(balance_heuristic({INFINITY}, {INFINITY}), 1);
+  EXPECT_EQ(power_heuristic({0}, {0}), 0);
+  EXPECT_EQ(power_heuristic({INFINITY}, {INFINITY}), 1);
+  EXPECT_FLOAT_EQ(power_heuristic({3e30f}, {1e30f}), 0.9f);
+  EXPECT_FLOAT_EQ(power_heuristic({3e-30f}, {1e-30f}), 0.9f);
 }
 
 TEST(OffsetOrigin, LiesStrictlyOnTheSideOfTheNormal) {

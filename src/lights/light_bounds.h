@@ -1,0 +1,37 @@
+#pragma once
+
+#include "src/core/bounds.h"
+#include "src/lights/emitter.h"
+
+namespace lemma {
+
+/// What a node of the light tree knows of the emitters below it: where they are, where they face, and how
+/// much they emit. Sources: Conty Estevez, Kulla, Importance Sampling of Many Lights with Adaptive Tree
+/// Splitting, HPG 2018; Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., 12.6.3.
+struct LightBounds {
+  Bounds box;
+  Vec3d axis;         // unit; the emitters' normals lie within ...
+  double spread = 0;  // ... this angle of it, in [0, pi]
+  double power = 0;   // sum of luminance x area
+
+  explicit LightBounds(const Emitter& emitter);
+  /// Of the emitters of both.
+  LightBounds(const LightBounds& a, const LightBounds& b);
+};
+
+/// Estimate of the light that reaches a surface at x with normal n from emitters of these bounds. 0 only if
+/// none of them can: no emitter faces x, or all lie below the horizon of n.
+class LightImportance {
+ public:
+  explicit LightImportance(const LightBounds& bounds);
+
+  [[nodiscard]] double operator()(const Vec3& x, const Vec3& n) const;
+
+ private:
+  Vec3 centre_, axis_;
+  float radius2_;  // of the sphere around the box
+  float cos_spread_, sin_spread_;
+  float power_;
+};
+
+}  // namespace lemma

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "src/lights/light_bounds.h"
+#include "src/lights/light_sampler.h"
+#include "src/lights/whole_light.h"
+
+namespace lemma {
+
+/// A tree over emitters, from which a light is drawn by going down to one of a node's children with
+/// probability ~ its importance as seen from the point. Nodes are wide: with few lights, all are weighed one
+/// by one and nothing needs to be estimated. A light is a whole light (whole_light.h) where x can see it as
+/// one, else an emitter. Below the node of a whole light lies the tree of its own emitters.
+class LightTree {
+ public:
+  explicit LightTree(std::span<const Emitter> emitters);
+
+  /// A light chosen: one of the two.
+  struct Choice {
+    double pmf = 0;
+    std::uint32_t emitter = 0;
+    const WholeLight* whole = nullptr;  // then `emitter` means nothing
+    std::uint32_t node = 0;
+  };
+
+  /// Draws a light for u uniform in [0, 1); nothing if no light can reach the surface.
+  [[nodiscard]] std::optional<Choice> choose(const LightQuery& at, double u) const;
+
+  /// The light that an emitter is sampled with from there, and the probability that choose() returns it.
+  [[nodiscard]] Choice choice_of(const LightQuery& at, std::uint32_t emitter) const;
+
+  struct EmitterPoint {
+    std::uint32_t emitter;
+    Vec3d y;
+  };
+
+  /// What the ray from x in direction w meets first of the emitters below a node, either side of them.
+  [[nodiscard]] std::optional<EmitterPoint> first_hit(std::uint32_t node, const Vec3& x,
+                                                      const Vec3d& w) const;
+
+ private:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+  struct Node {
+    explicit Node(const LightBounds& bounds) : box(bounds.box), importance(bounds) {}
+    Bounds box;
+    LightImportance importance;
+    std::uint32_t parent = kNone;
+    std::uint32_t first_child = 0, children = 0;  // children lie together; a leaf has none
+    std::uint32_t emitter = kNone;                // of a leaf
+    std::uint32_t whole = kNone;                  // index into wholes_
+  };
+  /// The nodes of an emitter, and of the whole light it belongs to if it does.
+  struct Place {
+    std::uint32_t leaf = kNone, whole = kNone;
+  };
+  struct Ray;
+  struct Nearest;
+  class Builder;
+
+  static constexpr std::size_t kWidth = 16;  // children of a node at most
+
+  /// Importances of a node's children.
+  struct Weights {
+    std::array<double, kWidth> of_child;
+    double sum = 0;
+  };
+  [[nodiscard]] Weights weigh_children(const Node& node, const LightQuery& at) const;
+  [[nodiscard]] bool is_light(const Node& node, const Vec3& x) const;
+  [[nodiscard]] double importance(const Node& node, const LightQuery& at) const;
+  [[nodiscard]] Choice choice(std::uint32_t node, double pmf, const Vec3& x) const;
+  void find_nearest(std::uint32_t node, const Ray& ray, Nearest& nearest) const;
+
+  std::span<const Emitter> emitters_;
+  std::vector<WholeLight> wholes_;
+  std::vector<Node> nodes_;    // the root first
+  std::vector<Place> places_;  // by emitter
+};
+
+}  // namespace lemma

@@ -1,0 +1,43 @@
+#include "src/lights/sphere_cone.h"
+
+#include <numbers>
+
+namespace lemma {
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr double kLargestSin2 = 0.98;  // x at 1.01 radii or more
+
+}  // namespace
+
+SphereCone::SphereCone(const Vec3d& centre, double radius, const Vec3& x) {
+  const Vec3d to_centre = centre - Vec3d(x);
+  const double distance2 = dot(to_centre, to_centre), sin2 = radius * radius / distance2;
+  can_be_sampled_ = sin2 < kLargestSin2;
+  if (!can_be_sampled_) return;
+  axis_ = to_centre * (1 / std::sqrt(distance2));
+  one_minus_cos_ = sin2 / (1 + std::sqrt(1 - sin2));
+}
+
+double SphereCone::solid_angle() const {
+  return kTwoPi * one_minus_cos_;
+}
+
+Vec3d SphereCone::sample(const Vec2& u) const {
+  const double below_axis = u.x * one_minus_cos_;  // 1 - cos of the angle to the axis
+  const double sine = std::sqrt(below_axis * (2 - below_axis)), phi = kTwoPi * u.y;
+  const Vec3d other = std::abs(axis_.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+  const Vec3d s = normalize(cross(axis_, other)), t = cross(axis_, s);
+  return axis_ * (1 - below_axis) + (s * std::cos(phi) + t * std::sin(phi)) * sine;
+}
+
+double SphereCone::mean_cosine(const Vec3d& n) const {
+  const double cos_half = 1 - one_minus_cos_;
+  const double sin_half = std::sqrt(one_minus_cos_ * (1 + cos_half));
+  const double cos_n = dot(n, axis_), sin_n = std::sqrt(std::max(0.0, 1 - cos_n * cos_n));
+  const double across = cos_n * cos_half, along = sin_n * sin_half;
+  const double largest = cos_n > cos_half ? 1 : across + along;
+  return 0.5 * (std::max(largest, 0.0) + std::max(across - along, 0.0));
+}
+
+}  // namespace lemma

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "src/core/vec.h"
+
+namespace lemma {
+
+/// The cone of directions from x that meet a sphere, in double.
+class SphereCone {
+ public:
+  SphereCone(const Vec3d& centre, double radius, const Vec3& x);
+
+  /// Whether x lies outside the sphere by so much that a polyhedron within it still fills most of the cone.
+  [[nodiscard]] bool can_be_sampled() const { return can_be_sampled_; }
+
+  /// [sr]
+  [[nodiscard]] double solid_angle() const;
+
+  /// Unit direction, uniform over the cone, for u uniform in [0,1)^2.
+  [[nodiscard]] Vec3d sample(const Vec2& u) const;
+
+  /// About the mean over the cone of max(0, n . w): the mean of its largest and its smallest value. Positive
+  /// exactly if the cone reaches above the horizon of n.
+  [[nodiscard]] double mean_cosine(const Vec3d& n) const;
+
+ private:
+  Vec3d axis_;
+  double one_minus_cos_ = 0;  // of the half angle: 1 - cos = sin^2 / (1 + cos), which does not cancel
+  bool can_be_sampled_ = false;
+};
+
+}  // namespace lemma

@@ -1,0 +1,110 @@
+#include "src/lights/whole_light.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "src/core/bounds.h"
+
+namespace lemma {
+namespace {
+
+constexpr double kSmallestFill = 0.5;
+// The sphere is larger by what rounding may move a direction to its rim.
+constexpr double kRim = 1 + 1e-6;
+
+using Corner = std::tuple<std::uint32_t, float, float, float>;  // light and position
+
+std::array<Corner, 3> corners(const Emitter& e) {
+  const auto corner = [&](const Vec3& v) { return Corner(e.light, v.x, v.y, v.z); };
+  return {corner(e.shape.v0), corner(e.shape.v1), corner(e.shape.v2)};
+}
+
+/// Sets of elements that can be united (union-find with path halving).
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  std::uint32_t root_of(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) { parent_[root_of(a)] = root_of(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// The emitters of one light that hang together by common vertices.
+std::vector<std::vector<std::uint32_t>> connected_parts(std::span<const Emitter> emitters) {
+  DisjointSets sets(emitters.size());
+  std::map<Corner, std::uint32_t> first_at;
+  for (std::uint32_t e = 0; e < emitters.size(); ++e) {
+    for (const Corner& c : corners(emitters[e])) sets.unite(e, first_at.try_emplace(c, e).first->second);
+  }
+  std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
+  for (std::uint32_t e = 0; e < emitters.size(); ++e) parts[sets.root_of(e)].push_back(e);
+  std::vector<std::vector<std::uint32_t>> list;
+  for (auto& [root, part] : parts) list.push_back(std::move(part));
+  return list;
+}
+
+bool is_closed(std::span<const Emitter> emitters, const std::vector<std::uint32_t>& part) {
+  std::set<std::pair<Corner, Corner>> edges;
+  for (const std::uint32_t e : part) {
+    const auto c = corners(emitters[e]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!edges.emplace(c[k], c[(k + 1) % 3]).second) return false;
+    }
+  }
+  return std::ranges::all_of(edges, [&](const auto& edge) {
+    return edges.contains({edge.second, edge.first});
+  });
+}
+
+/// The least part of its bounding sphere's silhouette that a body of this part of the sphere's volume covers,
+/// from any direction: a cylinder cut out of the sphere along that direction holds more than any other body
+/// of its silhouette, and one that covers the part a of it holds 1 - (1 - a)^(3/2) of the sphere.
+double smallest_fill(double volume_ratio) {
+  return 1 - std::cbrt((1 - volume_ratio) * (1 - volume_ratio));
+}
+
+std::optional<WholeLight> as_whole(std::span<const Emitter> emitters, std::vector<std::uint32_t> part) {
+  if (!is_closed(emitters, part)) return std::nullopt;
+  Bounds box;
+  for (const std::uint32_t e : part) box.add(emitters[e].shape);
+  WholeLight light{(Vec3d(box.lo) + Vec3d(box.hi)) * 0.5, 0, {}};
+  double volume = 0;
+  for (const std::uint32_t e : part) {
+    const Triangle& t = emitters[e].shape;
+    const double pyramid = dot(Vec3d(t.v0) - light.centre, area_vector(t)) / 6;
+    if (!(pyramid > 0)) return std::nullopt;  // faces the centre
+    volume += pyramid;
+    for (const Vec3& v : {t.v0, t.v1, t.v2}) {
+      light.radius = std::max(light.radius, length(Vec3d(v) - light.centre));
+    }
+  }
+  const double sphere = 4 * std::numbers::pi / 3 * light.radius * light.radius * light.radius;
+  if (smallest_fill(std::min(volume / sphere, 1.0)) < kSmallestFill) return std::nullopt;
+  light.radius *= kRim;
+  light.emitters = std::move(part);
+  return light;
+}
+
+}  // namespace
+
+std::vector<WholeLight> find_whole_lights(std::span<const Emitter> emitters) {
+  std::vector<WholeLight> lights;
+  for (auto& part : connected_parts(emitters)) {
+    if (auto light = as_whole(emitters, std::move(part))) lights.push_back(std::move(*light));
+  }
+  return lights;
+}
+
+}  // namespace lemma

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/lights/emitter.h"
+
+namespace lemma {
+
+/// Emitters that together form a body so round that sampling its bounding sphere's cone is nearly sampling
+/// the body: the tessellated spheres that many scenes have as lights.
+struct WholeLight {
+  Vec3d centre;
+  double radius = 0;  // of a sphere about the centre that holds all vertices
+  std::vector<std::uint32_t> emitters;
+};
+
+/// Finds those sets of emitters of one light, joined by common vertices, that are
+///   closed:      each edge belongs to two triangles, once in each direction;
+///   star-shaped: all face away from the centre of their bounding box, so that no two overlap;
+///   round:       from any direction the silhouette fills at least half of the bounding sphere's.
+[[nodiscard]] std::vector<WholeLight> find_whole_lights(std::span<const Emitter> emitters);
+
+}  // namespace lemma
