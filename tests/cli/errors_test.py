@@ -2,7 +2,7 @@
 
 import unittest
 
-from lemma import CORNELL_BOX, LemmaTest, choices, render_options
+from lemma import CORNELL_BOX, LemmaTest, choices, options_with_choices, render_options
 
 SEE_RENDER_HELP = "lemma render --help tells what it takes"
 SEE_HELP = "expected one of: render; lemma --help tells more"
@@ -48,8 +48,7 @@ class OptionTest(ErrorTest):
         self.assert_option_error(["another"], 'unexpected argument "another"', SEE_RENDER_HELP)
 
     def test_unknown_name(self):
-        for option in ("--accel", "--integrator", "--lights", "--rr", "--phong-norm", "--emitters", "--tonemap",
-                       "--progress"):
+        for option in options_with_choices():
             for name in ("Grid", "gri"):
                 self.assert_option_error([option, name], f'{option}: invalid value "{name}"',
                                          "expected one of: " + ", ".join(choices(option)))

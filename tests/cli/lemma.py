@@ -53,6 +53,11 @@ def choices(option):
     return re.findall(r"^ +([^ :]+):", block, re.MULTILINE)
 
 
+def options_with_choices():
+    """The options that take one of several names."""
+    return re.findall(r"^  (--[\w-]+) NAME", render_help(), re.MULTILINE)
+
+
 def render_options():
     """The options that help lists for `lemma render`, in its order."""
     return re.findall(r"^  (?:-\w,)?(--[\w-]+)", render_help(), re.MULTILINE)
