@@ -11,6 +11,7 @@ set(wrapped
     "<OpenImageIO/" "^src/(render|shading)/"
     "<CLI/" "^src/app/"
     "<nlohmann/" "^src/app/"
+    "<boost/" "^src/oracle/exact\\.cpp$"
     "<(tbb|oneapi)/" "^src/core/parallel\\.cpp$")
 
 function(check_project_include file header)
