@@ -9,6 +9,7 @@
 
 #include "src/app/argument_error.h"
 #include "src/app/render_command.h"
+#include "src/app/trace_command.h"
 
 namespace lemma {
 namespace {
@@ -111,6 +112,8 @@ int run_command_line(int argc, const char* const* argv) {
   app.footer(kExitCodes);
   RenderOptions render_options;
   const CLI::App* render = add_render_command(app, render_options);
+  TraceOptions trace_options;
+  const CLI::App* trace = add_trace_command(app, trace_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for_help) {
@@ -118,6 +121,7 @@ int run_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     refuse(app, error, argv[argc - 1]);
   }
+  if (trace->parsed()) return run_trace(trace_options);
   return render->parsed() ? run_render(render_options) : kBadInput;
 }
 
