@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/app/argument_error.h"
+#include "src/app/parity_command.h"
 #include "src/app/render_command.h"
 #include "src/app/trace_command.h"
 
@@ -15,7 +16,9 @@ namespace lemma {
 namespace {
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 1 bad scene, arguments or files; 2 done, but invalid samples were met and left out.";
+    "Exit codes: 0 done; 1 bad scene, arguments or files; 2 done, but invalid samples were met and left out; "
+    "3 a "
+    "comparison failed.";
 
 bool is_option(const std::string& argument) {
   return argument.starts_with('-');
@@ -114,6 +117,8 @@ int run_command_line(int argc, const char* const* argv) {
   const CLI::App* render = add_render_command(app, render_options);
   TraceOptions trace_options;
   const CLI::App* trace = add_trace_command(app, trace_options);
+  ParityOptions parity_options;
+  const CLI::App* parity = add_parity_command(app, parity_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for_help) {
@@ -122,6 +127,7 @@ int run_command_line(int argc, const char* const* argv) {
     refuse(app, error, argv[argc - 1]);
   }
   if (trace->parsed()) return run_trace(trace_options);
+  if (parity->parsed()) return run_parity(parity_options);
   return render->parsed() ? run_render(render_options) : kBadInput;
 }
 
