@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "accel/watertight.h"
 #include "tests/support/images.h"
 #include "tests/support/meshes.h"
 
@@ -98,6 +99,17 @@ TEST_F(Parity, AStrideLeavesRaysOutOfEveryKindAlike) {
   const Record record = check_parity(oracle_, source_, {&contestant, 1}, kRays, nullptr).front();
   EXPECT_EQ(record.total().rays, kRays / 4);
   for (std::size_t k = 0; k < kRayKinds; ++k) EXPECT_EQ(record.kinds[k].rays, kRays / 80 * (k < 3 ? 4 : 1));
+}
+
+/// A hit that another test has found beside the triangle by a rounding error keeps a t of the triangle,
+/// though the plane, seen edge-on there, is far away.
+TEST(HitOn, StaysOnTheTriangle) {
+  const Triangle triangle{{0, 0, 1}, {1, 0, 2}, {0.5f, 1e-6f, 1.5f}};
+  for (const float beside : {-1e-7f, 1e-7f, 2e-6f}) {
+    const Hit hit = hit_on(ShearedRay({{0.5f, beside, 0}, {1e-3f, -1e-7f, 1}}), triangle, 0);
+    EXPECT_GE(hit.t, 1) << beside;
+    EXPECT_LE(hit.t, 2) << beside;
+  }
 }
 
 /// A bare mesh has neither camera nor lights.
