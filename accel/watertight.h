@@ -59,6 +59,11 @@ inline Weights weights(const Vertex& a, const Vertex& b, const Vertex& c) {
   return {u, v, w, u + v + w};
 }
 
+/// Whether no edge has the ray on its outer side.
+inline bool passes_through(const Weights& e) {
+  return !((e.u < 0 || e.v < 0 || e.w < 0) && (e.u > 0 || e.v > 0 || e.w > 0));
+}
+
 inline float distance(const ShearedRay& ray, const Weights& e, const Vertex& a, const Vertex& b,
                       const Vertex& c) {
   return static_cast<float>(ray.sz * (e.u * a.z + e.v * b.z + e.w * c.z) / e.sum);
@@ -75,7 +80,7 @@ inline bool intersect(const ShearedRay& ray, const Triangle& triangle, std::uint
   using namespace watertight;
   const Vertex a = shear(ray, triangle.v0), b = shear(ray, triangle.v1), c = shear(ray, triangle.v2);
   const Weights e = weights(a, b, c);
-  if ((e.u < 0 || e.v < 0 || e.w < 0) && (e.u > 0 || e.v > 0 || e.w > 0)) return false;
+  if (!passes_through(e)) return false;
   if (e.sum == 0) return false;
   const float t = distance(ray, e, a, b, c);
   if (!(t > ray.t_min && (t < best.t || (t == best.t && index < best.triangle)))) return false;
@@ -92,7 +97,8 @@ inline Hit hit_on(const ShearedRay& ray, const Triangle& triangle, std::uint32_t
   if (e.sum == 0) return {ray.sz * a.z, index, 0, 0};  // seen edge-on: any of its points will do
   const float b1 = std::clamp(static_cast<float>(e.v / e.sum), 0.0f, 1.0f);
   const float b2 = std::clamp(static_cast<float>(e.w / e.sum), 0.0f, 1.0f - b1);
-  return {distance(ray, e, a, b, c), index, b1, b2};
+  if (passes_through(e)) return {distance(ray, e, a, b, c), index, b1, b2};
+  return {ray.sz * ((1 - b1 - b2) * a.z + b1 * b.z + b2 * c.z), index, b1, b2};  // not that of the plane
 }
 
 /// The `best` before any triangle was tested: hits count below t_max, and t == t_max loses to no index.

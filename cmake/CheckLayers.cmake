@@ -12,6 +12,7 @@ set(wrapped
     "<OpenImageIO/" "^src/(render|shading)/"
     "<CLI/" "^src/app/"
     "<nlohmann/" "^src/app/"
+    "<boost/" "^src/oracle/exact\\.cpp$"
     "<(tbb|oneapi)/" "^src/core/tbb_loop\\.cpp$")
 
 function(check_project_include file header)

@@ -11,6 +11,7 @@ endfunction()
 
 lemma_require(Imath libimath-dev CONFIG)
 lemma_require(TBB libtbb-dev CONFIG)
+lemma_require(Boost libboost-dev CONFIG)
 lemma_require(tinyobjloader libtinyobjloader-dev CONFIG)
 lemma_require(pugixml libpugixml-dev CONFIG)
 lemma_require(OpenEXR libopenexr-dev CONFIG) # OpenImageIO's own configuration needs it but does not look for it

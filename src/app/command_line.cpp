@@ -8,13 +8,17 @@
 #include <vector>
 
 #include "src/app/argument_error.h"
+#include "src/app/parity_command.h"
 #include "src/app/render_command.h"
+#include "src/app/trace_command.h"
 
 namespace lemma {
 namespace {
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 1 bad scene, arguments or files; 2 done, but invalid samples were met and left out.";
+    "Exit codes: 0 done; 1 bad scene, arguments or files; 2 done, but invalid samples were met and left out; "
+    "3 a "
+    "comparison failed.";
 
 bool is_option(const std::string& argument) {
   return argument.starts_with('-');
@@ -111,6 +115,10 @@ int run_command_line(int argc, const char* const* argv) {
   app.footer(kExitCodes);
   RenderOptions render_options;
   const CLI::App* render = add_render_command(app, render_options);
+  TraceOptions trace_options;
+  const CLI::App* trace = add_trace_command(app, trace_options);
+  ParityOptions parity_options;
+  const CLI::App* parity = add_parity_command(app, parity_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for_help) {
@@ -118,6 +126,8 @@ int run_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     refuse(app, error, argv[argc - 1]);
   }
+  if (trace->parsed()) return run_trace(trace_options);
+  if (parity->parsed()) return run_parity(parity_options);
   return render->parsed() ? run_render(render_options) : kBadInput;
 }
 

@@ -3,53 +3,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
-#include "src/app/value_option.h"
+#include "src/app/number_option.h"
+#include "src/app/progress.h"
 
 namespace lemma {
 namespace {
 
 constexpr int kLargestEdge = 65536;  // of an image [pixels]
 constexpr std::size_t kMostCells = std::size_t{1} << 28;
-
-/// The whole text as a number; nothing if it is none.
-template <class T>
-std::optional<T> parse_number(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-/// Puts what `parse` makes of a text into `target`, if it makes anything of it.
-template <class T, class Parse>
-TakeValue into(T& target, Parse parse) {
-  return [&target, parse](const std::string& text) {
-    const auto parsed = parse(text);
-    if (parsed) target = *parsed;
-    return parsed.has_value();
-  };
-}
-
-/// Adds an option that takes a whole number in [lowest, highest].
-template <class T>
-void add_integer(CLI::App& app, const std::string& flag, T& value, std::type_identity_t<T> lowest,
-                 std::type_identity_t<T> highest, const std::string& help) {
-  const auto parse = [=](const std::string& text) {
-    const std::optional<T> number = parse_number<T>(text);
-    return number && *number >= lowest && *number <= highest ? number : std::nullopt;
-  };
-  add_value(app,
-            {.flag = flag,
-             .type = "N",
-             .fallback = fmt::format("{}", value),
-             .expected = fmt::format("a whole number from {} to {}", lowest, highest),
-             .help = help},
-            into(value, parse));
-}
 
 /// Adds an option that takes a finite number above `above`.
 void add_real(CLI::App& app, const std::string& flag, float& value, float above, const std::string& help) {
@@ -134,11 +98,6 @@ void add_accelerator_options(CLI::App& app, RenderOptions& o) {
 }
 
 void add_output_options(CLI::App& app, RenderOptions& o) {
-  static constexpr Named<ProgressStyle> styles[] = {
-      {"auto", ProgressStyle::automatic, "a bar on a terminal, lines elsewhere"},
-      {"bar", ProgressStyle::bar, "a bar that is drawn over and over"},
-      {"plain", ProgressStyle::plain, "a line for every tenth"},
-      {"off", ProgressStyle::off, "nothing"}};
   constexpr float any = -std::numeric_limits<float>::infinity();
   add_file(app,
            {.flag = "-o,--output",
@@ -161,8 +120,8 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
             .help = "Write the figures of the run as JSON"},
            [&o](const auto& path) { o.stats = path; });
   add_choice(
-      app, "--progress", std::span<const Named<ProgressStyle>>(styles),
-      [&o](auto& entry) { o.progress = entry.value; }, "Progress on stderr");
+      app, "--progress", progress_styles(), [&o](auto& entry) { o.progress = entry.value; },
+      "Progress on stderr");
   app.add_flag("-q,--quiet", o.quiet, "Print nothing but errors");
 }
 

@@ -7,6 +7,15 @@
 
 namespace lemma {
 
+std::span<const Named<ProgressStyle>> progress_styles() {
+  static constexpr Named<ProgressStyle> styles[] = {
+      {"auto", ProgressStyle::automatic, "a bar on a terminal, lines elsewhere"},
+      {"bar", ProgressStyle::bar, "a bar that is drawn over and over"},
+      {"plain", ProgressStyle::plain, "a line for every tenth"},
+      {"off", ProgressStyle::off, "nothing"}};
+  return styles;
+}
+
 Progress::Progress(ProgressStyle style) : style_(style) {
   if (style_ == ProgressStyle::automatic) {
     style_ = ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::bar : ProgressStyle::plain;

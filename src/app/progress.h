@@ -1,12 +1,16 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 
 #include "src/app/options.h"
 
 namespace lemma {
 
-/// Shows on stderr how far a rendering is, with the time it will still take.
+/// The styles by the name users give them.
+[[nodiscard]] std::span<const Named<ProgressStyle>> progress_styles();
+
+/// Shows on stderr how far a long task is, with the time it will still take.
 class Progress {
  public:
   explicit Progress(ProgressStyle style);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "src/scene/numbers.h"
+#include "src/scene/obj_shape.h"
 
 namespace lemma {
 namespace {
@@ -11,18 +11,6 @@ namespace {
 /// Vertex normals this close to the geometric normal are the same one, printed with six digits: a coordinate
 /// is then off by 5e-6 of its size, and the normal of a face 1/40 as high as its coordinates by 2e-4.
 constexpr double kFlatDistance = 2e-4;
-
-Triangle shape_of(const ObjFile& obj, const ObjTriangle& t) {
-  return {obj.vertices[t.vertex[0]], obj.vertices[t.vertex[1]], obj.vertices[t.vertex[2]]};
-}
-
-bool in_range(const Vec3& v) {
-  return is_finite(v) && max_norm(v) <= kMaxCoordinate;
-}
-
-bool in_range(const Triangle& t) {
-  return in_range(t.v0) && in_range(t.v1) && in_range(t.v2);
-}
 
 /// Unit normal that the file gives a corner; 0 if none, or none that has a direction.
 Vec3d given_normal(const ObjFile& obj, std::uint32_t index) {
@@ -73,14 +61,10 @@ void build_geometry(const ObjFile& obj, const MaterialTable& materials, const Li
   report.triangles_read = obj.triangles.size();
   for (const ObjTriangle& t : obj.triangles) {
     const Triangle shape = shape_of(obj, t);
-    if (!in_range(shape)) {
-      ++report.dropped_non_finite;
-      continue;
-    }
-    if (area_vector(shape) == Vec3d(0)) {
-      ++report.dropped_zero_area;
-      continue;
-    }
+    const Soundness soundness = soundness_of(shape);
+    report.dropped_non_finite += soundness == Soundness::not_finite ? 1 : 0;
+    report.dropped_zero_area += soundness == Soundness::zero_area ? 1 : 0;
+    if (soundness != Soundness::sound) continue;
     const VertexNormals normals = normals_of(obj, t, shape);
     Facet facet{.material = materials.of_obj[t.material]};
     if (const std::uint32_t light = lights.of_material[facet.material]; light != kNoLight) {

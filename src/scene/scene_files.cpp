@@ -121,22 +121,39 @@ void add_file(const FoundFile& found, const std::string& name, const FilePositio
   if (std::find(files.begin(), files.end(), found.path) == files.end()) files.push_back(found.path);
 }
 
+constexpr const char* kWhatToName = "name the XML, the OBJ, or the folder that holds both";
+
+void require_existence(const fs::path& scene) {
+  std::error_code error;
+  if (!fs::exists(scene, error)) throw SceneError({scene}, "no such file or folder", kWhatToName);
+}
+
+SceneError neither(const fs::path& scene) {
+  return {{scene}, "this is neither XML nor OBJ", kWhatToName};
+}
+
 }  // namespace
 
 SceneFiles find_scene_files(const fs::path& scene) {
+  require_existence(scene);
   std::error_code error;
-  if (!fs::exists(scene, error)) {
-    throw SceneError({scene}, "no such file or folder",
-                     "name the XML, the OBJ, or the folder that holds both");
-  }
   if (fs::is_directory(scene, error)) {
     const fs::path xml = only_file(scene, ".xml", scene);
     return {xml, companion(xml, ".obj")};
   }
   if (has_extension(scene, ".xml")) return {scene, companion(scene, ".obj")};
   if (has_extension(scene, ".obj")) return {companion(scene, ".xml"), scene};
-  throw SceneError({scene}, "this is neither XML nor OBJ",
-                   "name the XML, the OBJ, or the folder that holds both");
+  throw neither(scene);
+}
+
+fs::path find_obj(const fs::path& scene) {
+  require_existence(scene);
+  if (has_extension(scene, ".obj")) return scene;
+  if (has_extension(scene, ".xml")) return companion(scene, ".obj");
+  std::error_code error;
+  if (!fs::is_directory(scene, error)) throw neither(scene);
+  const std::vector<fs::path> xml = list_files(scene, ".xml");
+  return xml.size() == 1 ? companion(xml.front(), ".obj") : only_file(scene, ".obj", scene);
 }
 
 std::vector<fs::path> find_mtl_files(const fs::path& obj, const std::vector<ObjName>& libraries,

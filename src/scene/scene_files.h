@@ -19,6 +19,10 @@ struct SceneFiles {
 /// @throw SceneError if there is none, or more than one to choose from
 [[nodiscard]] SceneFiles find_scene_files(const std::filesystem::path& scene);
 
+/// The OBJ that `scene` stands for, which may also be an OBJ or a folder of one without any XML.
+/// @throw SceneError if there is none, or more than one to choose from
+[[nodiscard]] std::filesystem::path find_obj(const std::filesystem::path& scene);
+
 /// The MTL files that the mtllib lines of an OBJ mean, each once. A name is taken as written, relative to the
 /// OBJ; else with '/' for '\', else its last part beside the OBJ, in whatever case; and if no file is found
 /// at all, the only MTL of the folder. All but the first are warned of, and so is a name without a file.
