@@ -74,7 +74,7 @@ class HeaderTest(LemmaTest):
 
     def test_its_options_make_the_same_file_again(self):
         """Every option is set to what is not its default, so that none is left out of the header unseen."""
-        unusual = [argument for option in ("--accel", "--integrator", "--lights", "--rr", "--phong-norm", "--emitters")
+        unusual = [argument for option in ("--accel", "--integrator", "--lights", "--mis", "--sampler", "--rr", "--phong-norm", "--emitters")
                    for argument in (option, choices(option)[-1])]
         scene = SCENES / "veach-mis"
         first = self.render_to("first.exr", *unusual, "--max-depth", 3, "--seed", 5, scene=scene, spp=2)
