@@ -140,6 +140,9 @@ CLI::App* add_render_command(CLI::App& app, RenderOptions& o) {
   add_accelerator_options(*render, o);
   add_transport_options(*render, o);
   add_integer(*render, "--spp", o.settings.spp, 1, 1u << 30, "Samples a pixel");
+  add_choice(
+      *render, "--sampler", sequences(), [&o](auto& entry) { o.settings.sequence = entry.value; },
+      "Random numbers");
   add_integer(*render, "--seed", o.settings.seed, 0, std::numeric_limits<std::uint64_t>::max(),
               "Seed of the random numbers: the same seed, the same image");
   add_integer(*render, "--threads", o.threads, 0, 1024,

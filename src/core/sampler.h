@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
+#include "src/core/named.h"
+#include "src/core/sobol.h"
 #include "src/core/vec.h"
 
 namespace lemma {
@@ -22,17 +25,48 @@ namespace lemma {
   return counter;
 }
 
+/// How the numbers of a pixel's samples relate to each other.
+enum class Sequence {
+  sobol,       // stratified: Owen-scrambled Sobol, a set of its own for each draw
+  independent  // not at all
+};
+
+[[nodiscard]] std::span<const Named<Sequence>> sequences();
+
 /// The random numbers of one camera sample. They depend on (seed, pixel, sample index) and on how many were
-/// drawn before, on nothing else: not on threads, tiles or other pixels.
+/// drawn before, on nothing else: not on threads, tiles or other pixels. With Sequence::sobol the n-th draws
+/// of a pixel's samples are spread evenly over the line or, drawn as pairs, the square; different draws,
+/// pixels and seeds are independent.
 class Sampler {
  public:
-  Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)
+  Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample,
+          Sequence sequence = Sequence::independent)
       : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
         pixel_(pixel),
-        sample_(sample) {}
+        sample_(sample),
+        sequence_(sequence) {}
 
   /// Uniform 32-bit integer: for choices among many, where 24 bits are too few.
   [[nodiscard]] std::uint32_t next_bits() {
+    return sequence_ == Sequence::sobol ? next_sobol()[0] : next_independent();
+  }
+
+  /// Uniform in [0, 1): a multiple of 2^-24, never 1.
+  [[nodiscard]] float next() { return to_unit(next_bits()); }
+
+  [[nodiscard]] Vec2 next_2d() {
+    if (sequence_ == Sequence::sobol) {
+      const auto [x, y] = next_sobol();
+      return {to_unit(x), to_unit(y)};
+    }
+    const float x = next();
+    return {x, next()};
+  }
+
+ private:
+  static float to_unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+
+  std::uint32_t next_independent() {
     if (used_ == 4) {
       words_ = philox4x32({pixel_, sample_, block_++, 0}, key_);
       used_ = 0;
@@ -40,19 +74,16 @@ class Sampler {
     return words_[used_++];
   }
 
-  /// Uniform in [0, 1): a multiple of 2^-24, never 1.
-  [[nodiscard]] float next() { return static_cast<float>(next_bits() >> 8) * 0x1p-24f; }
-
-  [[nodiscard]] Vec2 next_2d() {
-    const float x = next();
-    return {x, next()};
+  std::array<std::uint32_t, 2> next_sobol() {
+    const auto keys = philox4x32({pixel_, 0, block_++, 1}, key_);
+    return scrambled_sobol(sample_, {keys[0], keys[1], keys[2]});
   }
 
- private:
   std::array<std::uint32_t, 2> key_;
   std::uint32_t pixel_, sample_, block_ = 0;
   std::array<std::uint32_t, 4> words_{};
   std::uint32_t used_ = 4;
+  Sequence sequence_;
 };
 
 }  // namespace lemma

@@ -140,9 +140,13 @@ Ray RaySource::camera_ray(Sampler& random) const {
 }
 
 Ray RaySource::shadow_ray(Sampler& random) const {
-  const Ray bounce = leave(place_on_path(random), random);
+  const Place place = place_on_path(random);
+  const Ray bounce = leave(place, random);
   if (scene_.lights) {
-    const auto light = scene_.lights->sample(scene_.lights->query(bounce.origin), random);
+    const Vec3d normal = area_vector(scene_.triangles[place.triangle]);
+    const double side = std::copysign(1.0, dot(normal, Vec3d(bounce.direction)));
+    const LightQuery query = scene_.lights->query(bounce.origin, Vec3(normalize(normal * side)));
+    const auto light = scene_.lights->sample(query, random);
     if (light) return {bounce.origin, light->to_light, 0, light->visible_until};
   }
   return {bounce.origin, Vec3(point(any_place(random)) - Vec3d(bounce.origin)), 0, 0.999f};

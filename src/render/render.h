@@ -11,6 +11,7 @@ namespace lemma {
 struct RenderSettings {
   std::uint32_t spp = 16;  // samples a pixel
   std::uint64_t seed = 0;
+  Sequence sequence = Sequence::sobol;
 };
 
 struct RenderResult {

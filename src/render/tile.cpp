@@ -29,7 +29,7 @@ class TileRow {
     std::array<std::optional<Hit>, kTileSize> hits;
     for (std::size_t i = 0; i < count; ++i) {
       const int x = tile_.x + static_cast<int>(i);
-      random[i].emplace(settings_.seed, pixel_index(x), sample);
+      random[i].emplace(settings_.seed, pixel_index(x), sample, settings_.sequence);
       const Vec2 u = random[i]->next_2d();
       rays[i] = camera_.ray_through(static_cast<float>(x) + u.x, static_cast<float>(y_) + u.y);
     }

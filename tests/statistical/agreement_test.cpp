@@ -60,6 +60,7 @@ std::vector<Run> all_estimators(std::uint32_t spp) {
       {{"embree", "mis", "radiance-area"}, 4 * spp},
       {{"embree", "mis", "solid-angle"}, spp},
       {{"embree", "mis", "tree"}, spp},
+      {{"embree", "mis", "tree", {}, Sequence::independent}, spp},
       {{"embree", "mis", "tree", squared}, spp},
       {{"embree", "direct", "tree"}, 3 * spp},
       {{"embree", "direct", "power"}, 32 * spp},

@@ -29,8 +29,9 @@ Estimate mean_over_seeds(const Scene& scene, const Configuration& configuration,
                          std::uint64_t first_seed, int seeds) {
   std::vector<double> means;
   for (int i = 0; i < seeds; ++i) {
-    const RenderResult result =
-        render_scene(scene, configuration, {.spp = spp, .seed = first_seed + static_cast<std::uint64_t>(i)});
+    const RenderResult result = render_scene(
+        scene, configuration,
+        {.spp = spp, .seed = first_seed + static_cast<std::uint64_t>(i), .sequence = configuration.sequence});
     if (result.invalid_samples > 0) throw std::runtime_error("a rendering met invalid samples");
     means.push_back(image_mean(result.image));
   }

@@ -18,6 +18,7 @@ namespace lemma::test {
 struct Configuration {
   std::string_view accel = "embree", integrator = "mis", lights = "power";
   IntegratorOptions options = {};
+  Sequence sequence = Sequence::sobol;
 };
 
 [[nodiscard]] RenderResult render_scene(const Scene& scene, const Configuration& configuration,

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace lemma {
+
+[[nodiscard]] constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+  x = (x << 16) | (x >> 16);
+  x = ((x & 0x00FF00FFu) << 8) | ((x & 0xFF00FF00u) >> 8);
+  x = ((x & 0x0F0F0F0Fu) << 4) | ((x & 0xF0F0F0F0u) >> 4);
+  x = ((x & 0x33333333u) << 2) | ((x & 0xCCCCCCCCu) >> 2);
+  return ((x & 0x55555555u) << 1) | ((x & 0xAAAAAAAAu) >> 1);
+}
+
+/// A bijection in which each bit depends on itself and the lower ones alone: of the reversed bits of a number
+/// it is Owen's nested random permutation of base 2, drawn by `key`.
+/// Source: Laine, Karras, Stratified Sampling for Stochastic Transparency, EGSR 2011, with the constants of
+/// Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., 8.6 (FastOwenScrambler).
+[[nodiscard]] constexpr std::uint32_t permute_upwards(std::uint32_t x, std::uint32_t key) {
+  x ^= x * 0x3D20ADEAu;
+  x += key;
+  x *= (key >> 16) | 1;
+  x ^= x * 0x05526C56u;
+  x ^= x * 0x53A22864u;
+  return x;
+}
+
+/// The second generator matrix of Sobol's sequence, before the digits are reversed: the Pascal triangle
+/// modulo 2. C(j, i) is odd exactly if the bits of i are among those of j (Lucas), so digit i is the
+/// exclusive or over the supersets of i.
+[[nodiscard]] constexpr std::uint32_t pascal_digits(std::uint32_t index) {
+  index ^= (index >> 1) & 0x55555555u;
+  index ^= (index >> 2) & 0x33333333u;
+  index ^= (index >> 4) & 0x0F0F0F0Fu;
+  index ^= (index >> 8) & 0x00FF00FFu;
+  return index ^ (index >> 16);
+}
+
+/// Point `index` of Sobol's (0, 2)-sequence in an order and with a scrambling of its own for each set of
+/// keys, as two fractions of 2^32. Its first N points are stratified for every N; points of different keys
+/// are independent, so that pairs of dimensions may be padded. Source: Burley, Practical Hash-based Owen
+/// Scrambling, JCGT 9(4), 2020.
+[[nodiscard]] constexpr std::array<std::uint32_t, 2> scrambled_sobol(
+    std::uint32_t index, const std::array<std::uint32_t, 3>& keys) {
+  const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), keys[0]));
+  return {reverse_bits(permute_upwards(shuffled, keys[1])),
+          reverse_bits(permute_upwards(pascal_digits(shuffled), keys[2]))};
+}
+
+}  // namespace lemma
