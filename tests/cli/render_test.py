@@ -1,5 +1,6 @@
 """What `lemma render` writes: images, their headers, and the figures of the run."""
 
+import itertools
 import json
 import unittest
 
@@ -74,11 +75,14 @@ class HeaderTest(LemmaTest):
 
     def test_its_options_make_the_same_file_again(self):
         """Every option is set to what is not its default, so that none is left out of the header unseen."""
-        unusual = [argument for option in options_with_choices() if option not in ("--tonemap", "--progress")
-                   for argument in (option, choices(option)[-1])]
+        unusual = {option: choices(option)[-1] for option in options_with_choices()
+                   if option not in ("--tonemap", "--progress")}
         scene = SCENES / "veach-mis"
-        first = self.render_to("first.exr", *unusual, "--max-depth", 3, "--seed", 5, scene=scene, spp=2)
+        first = self.render_to("first.exr", *itertools.chain(*unusual.items()), "--max-depth", 3, "--seed", 5,
+                               scene=scene, spp=2)
         header = image_header(first)
+        for option, name in unusual.items():
+            self.assertIn(f"{option} {name} ", header["lemma:options"])
         run = self.lemma("render", header["lemma:scene"], "-q", "-o", "again.exr", *header["lemma:options"].split())
         self.assertEqual(run.returncode, DONE, run.stderr)
         self.assertEqual((self.folder / "again.exr").read_bytes(), first.read_bytes())
