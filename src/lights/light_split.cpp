@@ -97,9 +97,8 @@ std::size_t split_lights(std::span<LightItem> items) {
     if (size[axis] > 0) try_axis(items, axis, double{max_norm(size)} / size[axis], best);  // thin boxes cost
   }
   if (!best.binning) return items.size() / 2;
-  const auto second = std::ranges::partition(
-      items, [&](const LightItem& item) { return best.binning->bin(item) < best.first_of_second; });
-  return items.size() - second.size();
+  const auto in_first = [&](const LightItem& item) { return best.binning->bin(item) < best.first_of_second; };
+  return static_cast<std::size_t>(std::partition(items.begin(), items.end(), in_first) - items.begin());
 }
 
 }  // namespace lemma
