@@ -51,6 +51,7 @@ std::vector<std::vector<std::uint32_t>> connected_parts(std::span<const Emitter>
   std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
   for (std::uint32_t e = 0; e < emitters.size(); ++e) parts[sets.root_of(e)].push_back(e);
   std::vector<std::vector<std::uint32_t>> list;
+  list.reserve(parts.size());
   for (auto& [root, part] : parts) list.push_back(std::move(part));
   return list;
 }
