@@ -177,7 +177,7 @@ void sort_into_lists(const std::vector<std::vector<Reference>>& chunks, GridCell
 /// Chessboard distances from each brick to the nearest occupied one, in two sweeps over half the neighbours.
 /// Source: Borgefors, Distance Transformations in Digital Images, CVGIP 34(3), 1986.
 void find_clearances(GridCells& grid) {
-  const auto [nx, ny, nz] = grid.bricks_per_axis;
+  const int nx = grid.bricks_per_axis[0], ny = grid.bricks_per_axis[1], nz = grid.bricks_per_axis[2];
   const auto far = static_cast<std::uint32_t>(std::max({nx, ny, nz}));
   for (Brick& b : grid.bricks) b.clearance = b.occupied != 0 ? 0 : far;
   const auto relax = [&](int x, int y, int z, int sign) {
