@@ -13,8 +13,8 @@ inline constexpr double kRoundoff = 0x1p-24;
 /// largest coordinate difference between the ray's origin and a vertex. Rounding v - o costs one unit of u M
 /// a coordinate, the shear of the watertight test (accel/watertight.h) three more, and the normal sums them
 /// over three axes with at most sqrt(3) times its largest share: sqrt(3) * 4 = 7 < 8. Embree's ROBUST test
-/// keeps the same bound on triangles that are no slivers: of 2.4 million rays none finds the plane that it left
-/// (tests/parity/self_intersection_test.cpp).
+/// keeps the same bound on triangles that are no slivers: of 2.4 million rays none finds the plane that it
+/// left (tests/parity/self_intersection_test.cpp).
 inline constexpr double kPlaneError = 8;
 
 /// Next float towards +infinity or -infinity, whichever `direction` points to; x itself when direction is 0.
