@@ -1,5 +1,5 @@
-# cmake -P script: every `#include "..."` of FILES (in the tree at ROOT) must lie in one of the folders VISIBLE, and
-# each third-party library may be included by the files that wrap it only. Touches STAMP when all is well.
+# cmake -P script: every header of the project that FILES (in the tree at ROOT) include must lie in one of the folders
+# VISIBLE, and each third-party library may be included by the files that wrap it only. Touches STAMP when all is well.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -37,8 +37,8 @@ foreach(path IN LISTS FILES)
   cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${ROOT} OUTPUT_VARIABLE file)
   file(STRINGS ${path} includes REGEX "^[ \t]*#[ \t]*include")
   foreach(line IN LISTS includes)
-    if(line MATCHES "\"([^\"]+)\"")
-      check_project_include(${file} ${CMAKE_MATCH_1})
+    if(line MATCHES "\"([^\"]+)\"|<((src|accel|integrators)/[^>]+)>")
+      check_project_include(${file} ${CMAKE_MATCH_1}${CMAKE_MATCH_2})
     else()
       check_library_include(${file} "${line}")
     endif()

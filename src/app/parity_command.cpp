@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "src/app/number_option.h"
-#include "src/app/output_file.h"
 #include "src/app/parity_report.h"
 #include "src/app/progress.h"
 #include "src/core/parallel.h"
+#include "src/render/whole_file.h"
 #include "src/scene/load_geometry.h"
 #include "src/scene/load_scene.h"
 
@@ -100,7 +100,7 @@ CLI::App* add_parity_command(CLI::App& app, ParityOptions& o) {
 }
 
 ExitCode run_parity(const ParityOptions& options) {
-  if (!options.json.empty()) check_text_file(options.json);
+  if (!options.json.empty()) check_whole_file(options.json);
   const ThreadLimit limit(options.threads);
   const ParityInput input = load(options);
   const std::span<const Triangle> triangles = input.geometry.triangles;
@@ -114,7 +114,7 @@ ExitCode run_parity(const ParityOptions& options) {
   Progress progress(options.quiet ? ProgressStyle::off : options.progress);
   const std::vector<Record> records = check_parity(oracle, source, backends.contestants, options.rays,
                                                    [&](double done) { progress.update(done); });
-  if (!options.json.empty()) write_text_file(options.json, parity_json(options, records));
+  if (!options.json.empty()) write_whole_file(options.json, parity_json(options, records));
   if (!options.quiet) fmt::print("{}", parity_text(options, records));
   return ours_are_right(records) ? kDone : kComparisonFailed;
 }

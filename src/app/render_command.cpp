@@ -5,11 +5,11 @@
 #include <chrono>
 #include <tuple>
 
-#include "src/app/output_file.h"
 #include "src/app/progress.h"
 #include "src/app/summary.h"
 #include "src/core/parallel.h"
 #include "src/render/image_file.h"
+#include "src/render/whole_file.h"
 
 namespace lemma {
 namespace {
@@ -21,15 +21,10 @@ fs::path default_output(const LoadReport& report) {
   return report.obj.stem().string() + ".exr";
 }
 
-void check_image(const fs::path& path) {
-  check_replaceable(path);
-  check_writable(path);
-}
-
 /// Checks all files that are to be written and whose names are known without the scene.
 void check_outputs(const RenderOptions& options) {
-  for (const fs::path& path : options.outputs) check_image(path);
-  if (!options.stats.empty()) check_text_file(options.stats);
+  for (const fs::path& path : options.outputs) check_writable(path);
+  if (!options.stats.empty()) check_whole_file(options.stats);
 }
 
 LoadedScene load(const RenderOptions& options) {
@@ -83,7 +78,7 @@ ExitCode run_render(const RenderOptions& options) {
   const LoadedScene loaded = load(options);
   const Scene& scene = loaded.scene;
   std::vector<fs::path> outputs = options.outputs;
-  if (outputs.empty()) check_image(outputs.emplace_back(default_output(loaded.report)));
+  if (outputs.empty()) check_writable(outputs.emplace_back(default_output(loaded.report)));
 
   const BuiltAccelerator built = build_accelerator(options, scene);
   const auto lights = options.lights.value(scene.emitters);
@@ -96,7 +91,7 @@ ExitCode run_render(const RenderOptions& options) {
   for (const fs::path& path : outputs) write_image(path, result.image, options.tone_map, metadata);
   const RunFigures figures{describe(scene.needs), built.accel->description(), built.accel->memory_bytes(),
                            built.seconds, limit.threads()};
-  if (!options.stats.empty()) write_text_file(options.stats, summary_json(options, figures, result));
+  if (!options.stats.empty()) write_whole_file(options.stats, summary_json(options, figures, result));
   if (!options.quiet) fmt::print("{}", summary_text(options, figures, result));
   return result.invalid_samples > 0 ? kInvalidSamples : kDone;
 }

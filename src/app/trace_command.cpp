@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "src/app/output_file.h"
 #include "src/app/ray_file.h"
 #include "src/app/value_option.h"
 #include "src/core/parallel.h"
+#include "src/render/whole_file.h"
 #include "src/scene/load_geometry.h"
 
 namespace lemma {
@@ -65,7 +65,7 @@ CLI::App* add_trace_command(CLI::App& app, TraceOptions& o) {
 }
 
 ExitCode run_trace(const TraceOptions& options) {
-  check_text_file(options.output);
+  check_whole_file(options.output);
   const std::vector<Ray> rays = read_rays(options.rays);
   const Geometry geometry = load_geometry(options.scene);
   const auto accel = options.accel.value(geometry.triangles, {});
@@ -76,7 +76,7 @@ ExitCode run_trace(const TraceOptions& options) {
     ++count;
     if (!options.any) hit->triangle = geometry.file_index[hit->triangle];
   }
-  write_text_file(options.output, hit_bytes(hits));
+  write_whole_file(options.output, hit_bytes(hits));
   if (options.quiet) return kDone;
   for (const std::string& warning : geometry.warnings) fmt::print(stderr, "{}\n", warning);
   fmt::print("{}\n{} rays, {} of them hit\n", accel->description(), rays.size(), count);

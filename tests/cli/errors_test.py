@@ -132,8 +132,8 @@ class OutputTest(ErrorTest):
 
     def test_missing_folder(self):
         what = "cannot be written: the folder nowhere does not exist or takes no files"
-        self.assert_output_error("-o", "nowhere/a.exr", what, "make the folder, or choose another name with -o")
-        self.assert_output_error("--stats", "nowhere/a.json", what, "make the folder, or choose another name")
+        for option, file in (("-o", "nowhere/a.exr"), ("--stats", "nowhere/a.json")):
+            self.assert_output_error(option, file, what, "make the folder, or choose another name")
 
     def test_folder_in_place_of_a_file(self):
         (self.folder / "a.exr").mkdir()

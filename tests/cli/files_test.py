@@ -61,7 +61,7 @@ class FullDiskTest(OldFilesTest):
         self.assertEqual([file for file in self.files() if ".tmp" in file], [])
 
     def test_image_that_does_not_fit(self):
-        for name in ("a.exr", "a.tif"):
+        for name in ("a.exr", "a.png", "a.jpg", "a.tif"):
             with self.subTest(name):
                 self.assert_fails_to_write(name, "-o", name, size="64x48")
 
@@ -78,12 +78,14 @@ class LinkTest(OldFilesTest):
         self.assertEqual(figures["accel"], "embree")
         self.assertTrue((self.folder / "stdout").is_symlink())
 
-    def test_figures_go_where_a_link_leads(self):
-        self.put_old("figures/1.json")
-        (self.folder / "latest.json").symlink_to("figures/1.json")
-        self.render("--stats", "latest.json")
-        self.assertTrue((self.folder / "latest.json").is_symlink())
-        self.assertEqual(json.loads((self.folder / "figures/1.json").read_text())["accel"], "embree")
+    def test_files_go_where_links_lead(self):
+        for option, name in (("-o", "a.png"), ("--stats", "a.json")):
+            with self.subTest(option):
+                self.put_old(f"elsewhere/{name}")
+                (self.folder / name).symlink_to(f"elsewhere/{name}")
+                self.render(option, name)
+                self.assertTrue((self.folder / name).is_symlink())
+                self.assertNotEqual((self.folder / "elsewhere" / name).read_bytes(), OLD.encode())
 
 
 class KilledTest(OldFilesTest):

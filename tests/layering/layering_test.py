@@ -70,6 +70,9 @@ class IncludeTest(CheckTest):
                 run = self.check("src/scene/a.cpp", f'#include "{header}"\n')
                 self.assert_refused(run, f'src/scene/a.cpp: includes "{header}", which its layer may not see.')
 
+    def test_refuses_a_folder_above_in_angle_brackets(self):
+        self.assert_refused(self.check("src/scene/a.cpp", "#include <src/render/film.h>\n"), '"src/render/film.h"')
+
     def test_refuses_an_include_with_blanks_of_a_folder_above(self):
         self.assert_refused(self.check("src/scene/a.cpp", ' #\tinclude"src/render/film.h"\n'), '"src/render/film.h"')
 

@@ -27,7 +27,7 @@ class ImageFile : public testing::Test {
 std::string message_of(const std::function<void()>& action) {
   try {
     action();
-  } catch (const ImageFileError& error) {
+  } catch (const FileError& error) {
     return error.what();
   }
   return "no error";
@@ -56,7 +56,7 @@ TEST_F(ImageFile, MissingFoldersAreErrors) {
   const std::string name = (folder_ / "nowhere" / "a.png").string();
   EXPECT_EQ(message_of([&] { check_writable(name); }),
             name + ": error: cannot be written: the folder " + (folder_ / "nowhere").string() +
-                " does not exist or takes no files\n  hint: make the folder, or choose another name with -o");
+                " does not exist or takes no files\n  hint: make the folder, or choose another name");
 }
 
 TEST_F(ImageFile, AFailedWriteKeepsTheOldFile) {

@@ -1,10 +1,9 @@
-#include "src/app/output_file.h"
+#include "src/render/whole_file.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <fstream>
-#include <stdexcept>
 #include <system_error>
 
 namespace lemma {
@@ -12,9 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::runtime_error cannot_write(const fs::path& path, std::string_view why, std::string_view hint) {
-  return std::runtime_error(
-      fmt::format("{}: error: cannot be written: {}\n  hint: {}", path.string(), why, hint));
+FileError cannot_write(const fs::path& path, std::string_view why, std::string_view hint) {
+  return FileError(fmt::format("{}: error: cannot be written: {}\n  hint: {}", path.string(), why, hint));
 }
 
 /// Beside the target and no other process's.
@@ -22,9 +20,9 @@ fs::path temporary_name(const fs::path& path) {
   return path.parent_path() / fmt::format(".{}.{}.tmp", path.filename().string(), ::getpid());
 }
 
-bool write(const fs::path& path, std::string_view text) {
+bool write(const fs::path& path, std::string_view bytes) {
   std::ofstream file(path, std::ios::binary);
-  file << text;
+  file << bytes;
   return file.flush().good();
 }
 
@@ -48,8 +46,7 @@ void discard(const fs::path& temporary) {
   fs::remove(temporary, ignored);
 }
 
-}  // namespace
-
+/// Checks that what may stand under the name already may be replaced.
 void check_replaceable(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
@@ -60,7 +57,9 @@ void check_replaceable(const fs::path& path) {
   }
 }
 
-void check_text_file(const fs::path& path) {
+}  // namespace
+
+void check_whole_file(const fs::path& path) {
   check_replaceable(path);
   const fs::path target = target_of(path);
   if (is_device(target)) return;
@@ -73,12 +72,12 @@ void check_text_file(const fs::path& path) {
                      "make the folder, or choose another name");
 }
 
-void write_text_file(const fs::path& path, std::string_view text) {
+void write_whole_file(const fs::path& path, std::string_view bytes) {
   const fs::path target = target_of(path);
   const bool in_place = is_device(target);
   const fs::path file = in_place ? target : temporary_name(target);
   std::error_code error;
-  const bool written = write(file, text);
+  const bool written = write(file, bytes);
   if (written && !in_place) fs::rename(file, target, error);
   if (written && !error) return;
   if (!in_place) discard(file);
