@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "src/oracle/oracle.h"
+#include "src/render/tile.h"
+#include "tests/support/images.h"
+
+namespace lemma {
+namespace {
+
+/// Answers as the first accelerator does, and has the oracle class the rays that the second sees otherwise.
+class Comparison final : public Accelerator {
+ public:
+  Comparison(const Accelerator& a, const Accelerator& b, const Oracle& oracle)
+      : a_(a), b_(b), oracle_(oracle) {}
+
+  std::optional<Hit> closest_hit(const Ray& ray) const override {
+    const auto hit = a_.closest_hit(ray);
+    if (hit != b_.closest_hit(ray)) count(ray);
+    return hit;
+  }
+  bool occluded(const Ray& ray) const override {
+    const bool blocked = a_.occluded(ray);
+    if (blocked != b_.occluded(ray)) count(ray);
+    return blocked;
+  }
+  std::size_t memory_bytes() const override { return 0; }
+  std::string description() const override { return "comparison"; }
+
+  [[nodiscard]] int differing() const { return differing_; }
+  [[nodiscard]] int decided() const { return decided_; }
+
+ private:
+  void count(const Ray& ray) const {
+    ++differing_;
+    if (!oracle_.expect(ray).doubt) ++decided_;
+  }
+
+  const Accelerator &a_, &b_;
+  const Oracle& oracle_;
+  mutable std::atomic<int> differing_{0}, decided_{0};  // rays seen differently; of these the decided ones
+};
+
+std::unique_ptr<const Accelerator> make(std::string_view name, const Scene& scene) {
+  return find_named(accelerators(), name).value()(scene.triangles, {});
+}
+
+/// Renders with grid and Embree. Where a pixel differs in any bit its paths are traced again: they must hold
+/// a ray that the two see differently, and the oracle must call every such ray ambiguous.
+void expect_differences_explained(const Scene& scene, std::string_view name) {
+  const auto grid = make("grid", scene), embree = make("embree", scene);
+  const auto lights = light_samplers().front().value(scene.emitters);
+  const auto integrator = integrators().front().value(scene.needs.model, {});
+  const Oracle oracle(scene.triangles);
+  const Camera camera(scene.view);
+  const RenderSettings settings{.spp = 64, .seed = 91};
+  Image a = render({scene, *grid, *lights}, *integrator, settings, nullptr).image;
+  const Image b = render({scene, *embree, *lights}, *integrator, settings, nullptr).image;
+  EXPECT_GT(test::image_mean(a), 0) << "a black picture shows nothing";
+  int pixels = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      if (std::memcmp(&a.at(x, y), &b.at(x, y), sizeof(Rgb)) == 0) continue;
+      ++pixels;
+      const Comparison both(*grid, *embree, oracle);
+      (void)render_tile({scene, both, *lights}, *integrator, camera, settings, {x, y, 1, 1}, a);
+      EXPECT_GT(both.differing(), 0) << name << ": pixel " << x << "," << y;
+      EXPECT_EQ(both.decided(), 0) << name << ": pixel " << x << "," << y;
+    }
+  }
+  std::printf("%.*s: %d of %zu pixels differ, each by ambiguous rays\n", static_cast<int>(name.size()),
+              name.data(), pixels, a.pixels.size());
+}
+
+TEST(SamePixels, OnOwnScenes) {
+  for (const char* name : {"veach-mis", "cornell-box", "cornell-coplanar"}) {
+    expect_differences_explained(test::own_scene(name, 96, 54), name);
+  }
+}
+
+TEST(SamePixels, OnTheStaircase) {
+  const char* const folder = std::getenv("LEMMA_REAL_SCENES");
+  if (!folder) GTEST_SKIP() << "LEMMA_REAL_SCENES is not set";
+  Scene scene = load_scene(std::filesystem::path(folder) / "zju-2022-staircase").scene;
+  scene.view.width = 96, scene.view.height = 54;
+  expect_differences_explained(scene, "staircase");
+}
+
+}  // namespace
+}  // namespace lemma
