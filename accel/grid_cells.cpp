@@ -17,7 +17,7 @@ namespace lemma {
 namespace {
 
 constexpr double kDensity = 2;          // cells a triangle
-constexpr double kMaxCells = 1u << 28;  // 1 GiB of counters while building
+constexpr double kMaxCells = 1u << 28;  // 3 GiB of list heads and clearances
 
 constexpr std::size_t kCrowd = 200;  // triangles of a cell that are worth a grid of their own
 constexpr double kChildDensity = 2;  // its cells a triangle
