@@ -48,7 +48,7 @@ class Accelerator {
 /// Number of cells of the uniform grid.
 struct GridResolution {
   enum class Rule {
-    density,      // about 4 n cells, measured to be near the best on scenes of 3 thousand to a million
+    density,      // about 2 n cells, measured to be near the best on scenes of 3 thousand to a million
     twenty_seven  // 27 n cells: three times n^(1/3) an axis for a cube
   };
   Rule rule = Rule::density;

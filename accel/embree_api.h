@@ -1,7 +1,6 @@
 #pragma once
 
-// What differs between Embree 4 and Embree 3: the folder of the header and the arguments of the single-ray
-// queries.
+// What differs between Embree 4 and Embree 3: the folder of the header and the arguments of the queries.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -10,24 +9,60 @@
 
 namespace lemma::embree_api {
 
-inline void intersect(RTCScene scene, RTCRayHit& ray) {
 #if RTC_VERSION_MAJOR >= 4
+
+inline void intersect(RTCScene scene, RTCRayHit& ray) {
   rtcIntersect1(scene, &ray, nullptr);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene, &context, &ray);
-#endif
 }
 
 inline void occluded(RTCScene scene, RTCRay& ray) {
-#if RTC_VERSION_MAJOR >= 4
   rtcOccluded1(scene, &ray, nullptr);
+}
+
+/// Rays that start alike and go alike. @param valid  16 words: -1 for a ray, 0 for none
+inline void intersect_coherent(const int* valid, RTCScene scene, RTCRayHit16& rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &rays, &arguments);
+}
+
+inline void occluded_coherent(const int* valid, RTCScene scene, RTCRay16& rays) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcOccluded16(valid, scene, &rays, &arguments);
+}
+
 #else
+
+inline void intersect(RTCScene scene, RTCRayHit& ray) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &ray);
+}
+
+inline void occluded(RTCScene scene, RTCRay& ray) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(scene, &context, &ray);
-#endif
 }
+
+/// Rays that start alike and go alike. @param valid  16 words: -1 for a ray, 0 for none
+inline void intersect_coherent(const int* valid, RTCScene scene, RTCRayHit16& rays) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &context, &rays);
+}
+
+inline void occluded_coherent(const int* valid, RTCScene scene, RTCRay16& rays) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(valid, scene, &context, &rays);
+}
+
+#endif
 
 }  // namespace lemma::embree_api

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <memory>
@@ -52,6 +53,27 @@ bool is_finite(const Ray& ray) {
   return lemma::is_finite(ray.origin) && lemma::is_finite(ray.direction) && ray.t_min < ray.t_max;
 }
 
+constexpr std::size_t kPacket = 16;
+
+/// Puts the ray in lane i.
+void set_lane(RTCRay16& packet, std::size_t i, const RTCRay& r) {
+  packet.org_x[i] = r.org_x, packet.org_y[i] = r.org_y, packet.org_z[i] = r.org_z;
+  packet.dir_x[i] = r.dir_x, packet.dir_y[i] = r.dir_y, packet.dir_z[i] = r.dir_z;
+  packet.tnear[i] = r.tnear, packet.tfar[i] = r.tfar, packet.time[i] = 0;
+  packet.mask[i] = r.mask, packet.id[i] = 0, packet.flags[i] = 0;
+}
+
+/// Up to 16 rays as Embree takes them, and which lanes hold one.
+struct Packet {
+  Packet(RTCRay16& packet, std::span<const Ray> rays) {
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      valid[i] = i < rays.size() && is_finite(rays[i]) ? -1 : 0;
+      set_lane(packet, i, to_embree(valid[i] != 0 ? rays[i] : Ray{}));
+    }
+  }
+  alignas(64) std::array<int, kPacket> valid;
+};
+
 class EmbreeBvh final : public Accelerator {
  public:
   explicit EmbreeBvh(std::span<const Triangle> triangles)
@@ -82,6 +104,24 @@ class EmbreeBvh final : public Accelerator {
     return query.tfar < 0;
   }
 
+  void closest_hits(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const override {
+    for (std::size_t begin = 0; begin < rays.size(); begin += kPacket) {
+      const auto some = rays.subspan(begin, std::min(kPacket, rays.size() - begin));
+      closest_hits_of_packet(some, hits.subspan(begin));
+    }
+  }
+
+  void occluded_rays(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
+    for (std::size_t begin = 0; begin < rays.size(); begin += kPacket) {
+      const auto some = rays.subspan(begin, std::min(kPacket, rays.size() - begin));
+      RTCRay16 query;
+      const Packet packet(query, some);
+      embree_api::occluded_coherent(packet.valid.data(), scene_.get(), query);
+      for (std::size_t i = 0; i < some.size(); ++i)
+        blocked[begin + i] = packet.valid[i] != 0 && query.tfar[i] < 0 ? 1 : 0;
+    }
+  }
+
   std::size_t memory_bytes() const override { return static_cast<std::size_t>(bytes_.load()); }
 
   std::string description() const override {
@@ -89,6 +129,22 @@ class EmbreeBvh final : public Accelerator {
   }
 
  private:
+  void closest_hits_of_packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+    RTCRayHit16 query;
+    const Packet packet(query.ray, rays);
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    embree_api::intersect_coherent(packet.valid.data(), scene_.get(), query);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      hits[i].reset();
+      if (packet.valid[i] == 0 || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      const std::uint32_t triangle = query.hit.primID[i];
+      hits[i] = hit_on(ShearedRay(rays[i]), triangles_[triangle], triangle);
+    }
+  }
+
   void add_triangles() {
     const std::size_t count = triangles_.size();
     if (count == 0) return;

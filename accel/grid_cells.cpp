@@ -16,21 +16,19 @@
 namespace lemma {
 namespace {
 
-constexpr double kDensity = 4;              // cells a triangle
-constexpr double kMaxCells = 1u << 28;      // 1 GiB of counters while building
-constexpr double kMaxCellsPerAxis = 65535;  // the cell index stays exact, the margin above rounding
+constexpr double kDensity = 2;          // cells a triangle
+constexpr double kMaxCells = 1u << 28;  // 3 GiB of list heads and clearances
 
-constexpr std::size_t kCrowd = 100;  // triangles of a cell that are worth a grid of their own
+constexpr std::size_t kCrowd = 200;  // triangles of a cell that are worth a grid of their own
 constexpr double kChildDensity = 2;  // its cells a triangle
 constexpr double kMaxCopies = 8;     // its references a triangle; more: they do not come apart
 constexpr int kMaxDepth = 3;         // grids within grids
 
 constexpr std::size_t kChunk = 4096;  // triangles that one task sorts in
-constexpr int kCellsPerBrick = 64;
 
-/// A cell is widened by this part of its size, for the rounding of the walk: in double, and recomputed from
-/// indices, it errs by less than 2^-40 of the box, and that is less than 2^-24 of a cell.
-constexpr double kCellMargin = 1.0 / 1024;
+/// A cell is widened by this part of its size, for the rounding of the walk: up to 2^-10 of a cell
+/// (GridWalk).
+constexpr double kCellMargin = 1.0 / 256;
 
 /// And by this part of the scene's size, for the rounding of hits: a hit lies within kPlaneError * kRoundoff
 /// * M of its triangle (src/core/error_bound.h), where M is at most 8 scene sizes for rays that start within
@@ -58,16 +56,12 @@ GridCells lay_out(const Content& content, double target) {
   grid.hi = content.hi;
   const Vec3d extent = grid.hi - grid.lo;
   grid.counts = cell_counts(extent, std::min(target, kMaxCells));
-  std::size_t bricks = 1;
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    grid.bricks_per_axis[axis] = (grid.counts[axis] + GridCells::kBrick - 1) / GridCells::kBrick;
-    bricks *= static_cast<std::size_t>(grid.bricks_per_axis[axis]);
     grid.cell_size[k] = extent[k] / grid.counts[axis];
     grid.cells_per_unit[k] = 1 / grid.cell_size[k];
     grid.margin[k] = grid.cell_size[k] * kCellMargin + kReachMargin * content.reach;
   }
-  grid.bricks.resize(bricks);
   return grid;
 }
 
@@ -92,25 +86,18 @@ CellRange touched_cells(const GridCells& grid, const Triangle& triangle) {
   return range;
 }
 
-/// Cells numbered brick by brick: 64 times the brick's index plus the bit of the cell in it.
-std::uint32_t cell_number(const GridCells& grid, const std::array<int, 3>& cell) {
-  const std::size_t brick = grid.brick_index(cell[0] >> 2, cell[1] >> 2, cell[2] >> 2);
-  return static_cast<std::uint32_t>(brick * kCellsPerBrick) +
-         static_cast<std::uint32_t>((cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 3) << 4);
-}
-
-/// Calls visit(number) for every cell that the triangle overlaps.
+/// Calls visit(index) for every cell that the triangle overlaps.
 template <class Visit>
 void for_each_overlapped_cell(const GridCells& grid, const Triangle& triangle, const Visit& visit) {
   const CellRange range = touched_cells(grid, triangle);
-  if (range.first == range.last) return visit(cell_number(grid, range.first));
+  if (range.first == range.last) return visit(grid.index(range.first));
   const BoxOverlap overlap(triangle, grid.cell_size * 0.5 + grid.margin);
   std::array<int, 3> cell{};
   for (cell[2] = range.first[2]; cell[2] <= range.last[2]; ++cell[2]) {
     for (cell[1] = range.first[1]; cell[1] <= range.last[1]; ++cell[1]) {
       for (cell[0] = range.first[0]; cell[0] <= range.last[0]; ++cell[0]) {
         const Vec3d centre = grid.lo + Vec3d(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5) * grid.cell_size;
-        if (overlap.with_box_at(centre)) visit(cell_number(grid, cell));
+        if (overlap.with_box_at(centre)) visit(grid.index(cell));
       }
     }
   }
@@ -127,89 +114,101 @@ std::vector<std::vector<Reference>> find_references(const Content& content, cons
     const std::size_t end = std::min((c + 1) * kChunk, content.selected.size());
     for (std::size_t i = c * kChunk; i < end; ++i) {
       const std::uint32_t triangle = content.selected[i];
-      for_each_overlapped_cell(grid, content.triangles[triangle], [&](std::uint32_t cell) {
-        chunks[c].push_back({cell, triangle});
+      for_each_overlapped_cell(grid, content.triangles[triangle], [&](std::size_t cell) {
+        chunks[c].push_back({static_cast<std::uint32_t>(cell), triangle});
       });
     }
   });
   return chunks;
 }
 
-/// Marks the cells that have references and numbers their lists; turns `counts`, the length of each cell's
-/// list, into where it begins.
-void number_lists(GridCells& grid, std::vector<std::uint32_t>& counts) {
-  std::uint32_t references = 0;
-  for (std::size_t b = 0; b < grid.bricks.size(); ++b) {
-    Brick& brick = grid.bricks[b];
-    brick.first_list = static_cast<std::uint32_t>(grid.first.size());
-    for (std::size_t bit = 0; bit < kCellsPerBrick; ++bit) {
-      std::uint32_t& count = counts[b * kCellsPerBrick + bit];
-      if (count == 0) continue;
-      brick.occupied |= std::uint64_t{1} << bit;
-      grid.first.push_back(references);
-      references += std::exchange(count, references);
-    }
-  }
-  grid.first.push_back(references);
+/// Calls body(i) for each i in [0, count) on several threads, kChunk of them at a time.
+template <class Body>
+void parallel_chunks(std::size_t count, const Body& body) {
+  parallel_for((count + kChunk - 1) / kChunk, [&](std::size_t c) {
+    const std::size_t end = std::min((c + 1) * kChunk, count);
+    for (std::size_t i = c * kChunk; i < end; ++i) body(i);
+  });
 }
 
 /// Sorts the references by cell, then by triangle. Threads place a list's entries in any order; sorting it
 /// makes the result the same for any number of them.
 void sort_into_lists(const std::vector<std::vector<Reference>>& chunks, GridCells& grid) {
-  std::vector<std::uint32_t> next(grid.bricks.size() * kCellsPerBrick, 0);
+  const std::size_t cells = grid.index({grid.counts[0] - 1, grid.counts[1] - 1, grid.counts[2] - 1}) + 1;
+  grid.first.assign(cells + 1, 0);
+  const auto claim = [](std::uint32_t& x) {
+    return std::atomic_ref(x).fetch_add(1, std::memory_order_relaxed);
+  };
   parallel_for(chunks.size(), [&](std::size_t c) {
-    for (const Reference& r : chunks[c])
-      std::atomic_ref(next[r.cell]).fetch_add(1, std::memory_order_relaxed);
+    for (const Reference& r : chunks[c]) claim(grid.first[r.cell + 1]);
   });
-  number_lists(grid, next);
+  std::partial_sum(grid.first.begin(), grid.first.end(), grid.first.begin());
   grid.references.resize(grid.first.back());
+  std::vector<std::uint32_t> next = grid.first;
   parallel_for(chunks.size(), [&](std::size_t c) {
-    for (const Reference& r : chunks[c])
-      grid.references[std::atomic_ref(next[r.cell]).fetch_add(1, std::memory_order_relaxed)] = r.triangle;
+    for (const Reference& r : chunks[c]) grid.references[claim(next[r.cell])] = r.triangle;
   });
-  parallel_for((grid.list_count() + kChunk - 1) / kChunk, [&](std::size_t c) {
-    const std::size_t end = std::min((c + 1) * kChunk, grid.list_count());
-    for (std::size_t i = c * kChunk; i < end; ++i)
-      std::sort(grid.references.begin() + grid.first[i], grid.references.begin() + grid.first[i + 1]);
+  parallel_chunks(cells, [&](std::size_t i) {
+    std::sort(grid.references.begin() + grid.first[i], grid.references.begin() + grid.first[i + 1]);
   });
 }
 
-/// Chessboard distances from each brick to the nearest occupied one, in two sweeps over half the neighbours.
-/// Source: Borgefors, Distance Transformations in Digital Images, CVGIP 34(3), 1986.
-void find_clearances(GridCells& grid) {
-  const int nx = grid.bricks_per_axis[0], ny = grid.bricks_per_axis[1], nz = grid.bricks_per_axis[2];
-  const auto far = static_cast<std::uint32_t>(std::max({nx, ny, nz}));
-  for (Brick& b : grid.bricks) b.clearance = b.occupied != 0 ? 0 : far;
-  const auto relax = [&](int x, int y, int z, int sign) {
-    std::uint32_t& own = grid.bricks[grid.brick_index(x, y, z)].clearance;
-    if (own == 0) return;
-    for (int i = 0; i < 13; ++i) {  // the neighbours that this sweep has passed
-      const int u = x + sign * (i % 3 - 1), v = y + sign * (i / 3 % 3 - 1), w = z + sign * (i / 9 - 1);
-      if (u < 0 || v < 0 || w < 0 || u >= nx || v >= ny || w >= nz) continue;
-      own = std::min(own, grid.bricks[grid.brick_index(u, v, w)].clearance + 1);
-    }
+/// A cell's clearance in one octant is 1 more than the least of its seven neighbours' there; beyond the grid
+/// all is clear.
+void find_clearances(GridCells& grid, unsigned octant) {
+  const int nx = grid.counts[0], ny = grid.counts[1], nz = grid.counts[2];
+  std::uint8_t* clearance = grid.clearance.data() + octant * grid.cell_count();
+  const auto width = static_cast<std::size_t>(nx);
+  const std::vector<std::uint8_t> clear(width, 255);
+  std::vector<std::uint8_t> beside(width);  // least of a column's three neighbours in other rows
+  const bool up_x = (octant & 1) != 0, up_y = (octant & 2) != 0, up_z = (octant & 4) != 0;
+  const auto row = [&](int y, int z) -> std::uint8_t* { return clearance + grid.index({0, y, z}); };
+  const auto neighbour_row = [&](int y, int z) -> const std::uint8_t* {
+    return y < 0 || z < 0 || y >= ny || z >= nz ? clear.data() : row(y, z);
   };
-  for (int z = 0; z < nz; ++z)
-    for (int y = 0; y < ny; ++y)
-      for (int x = 0; x < nx; ++x) relax(x, y, z, 1);
-  for (int z = nz - 1; z >= 0; --z)
-    for (int y = ny - 1; y >= 0; --y)
-      for (int x = nx - 1; x >= 0; --x) relax(x, y, z, -1);
+  for (int k = 0; k < nz; ++k) {
+    const int z = up_z ? nz - 1 - k : k, next_z = up_z ? z + 1 : z - 1;
+    for (int j = 0; j < ny; ++j) {
+      const int y = up_y ? ny - 1 - j : j, next_y = up_y ? y + 1 : y - 1;
+      const std::uint8_t* a = neighbour_row(next_y, z);
+      const std::uint8_t* b = neighbour_row(y, next_z);
+      const std::uint8_t* c = neighbour_row(next_y, next_z);
+      for (std::size_t x = 0; x < width; ++x) beside[x] = std::min(std::min(a[x], b[x]), c[x]);
+      std::uint8_t* own = row(y, z);
+      std::uint8_t last = 255, last_beside = 255;
+      for (std::size_t i = 0; i < width; ++i) {
+        const std::size_t x = up_x ? width - 1 - i : i;
+        const std::uint8_t least =
+            std::min(std::min(last, last_beside), std::min(beside[x], std::uint8_t{254}));
+        last = own[x] == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(least + 1);
+        last_beside = beside[x];
+        own[x] = last;
+      }
+    }
+  }
+}
+
+/// To be called while the crowded cells still have their lists.
+void find_clearances(GridCells& grid) {
+  const std::size_t cells = grid.cell_count();
+  grid.clearance.resize(8 * cells);
+  parallel_for(8, [&](std::size_t octant) {
+    std::uint8_t* clearance = grid.clearance.data() + octant * cells;
+    for (std::size_t i = 0; i < cells; ++i) clearance[i] = grid.list(i).empty() ? 255 : 0;
+    find_clearances(grid, static_cast<unsigned>(octant));
+  });
 }
 
 void pack_vertices(std::span<const Triangle> triangles, GridCells& grid) {
   grid.vertices.resize(9 * grid.references.size() + GridCells::kOverread);
-  parallel_for((grid.list_count() + kChunk - 1) / kChunk, [&](std::size_t c) {
-    const std::size_t end = std::min((c + 1) * kChunk, grid.list_count());
-    for (std::size_t i = c * kChunk; i < end; ++i) {
-      const auto list = grid.list(i);
-      float* out = grid.vertices.data() + 9ull * grid.first[i];
-      for (std::size_t j = 0; j < list.size(); ++j) {
-        const Triangle& t = triangles[list[j]];
-        const std::array<float, 9> coordinates{t.v0.x, t.v0.y, t.v0.z, t.v1.x, t.v1.y,
-                                               t.v1.z, t.v2.x, t.v2.y, t.v2.z};
-        for (std::size_t a = 0; a < 9; ++a) out[a * list.size() + j] = coordinates[a];
-      }
+  parallel_chunks(grid.cell_count(), [&](std::size_t i) {
+    const auto list = grid.list(i);
+    float* out = grid.vertices.data() + 9ull * grid.first[i];
+    for (std::size_t j = 0; j < list.size(); ++j) {
+      const Triangle& t = triangles[list[j]];
+      const std::array<float, 9> coordinates{t.v0.x, t.v0.y, t.v0.z, t.v1.x, t.v1.y,
+                                             t.v1.z, t.v2.x, t.v2.y, t.v2.z};
+      for (std::size_t a = 0; a < 9; ++a) out[a * list.size() + j] = coordinates[a];
     }
   });
 }
@@ -218,7 +217,7 @@ void pack_vertices(std::span<const Triangle> triangles, GridCells& grid) {
 void empty_lists(GridCells& grid) {
   std::vector<std::uint32_t> references, first;
   std::size_t next = 0;
-  for (std::uint32_t i = 0; i < grid.list_count(); ++i) {
+  for (std::uint32_t i = 0; i < grid.cell_count(); ++i) {
     first.push_back(static_cast<std::uint32_t>(references.size()));
     if (next < grid.crowded.size() && grid.crowded[next] == i) {
       ++next;
@@ -250,38 +249,25 @@ std::optional<GridCells> split_crowd(const Content& parent, std::span<const std:
   return child;
 }
 
-/// The cell of each list, as cell_number.
-std::vector<std::uint32_t> cells_of_lists(const GridCells& grid) {
-  std::vector<std::uint32_t> cells;
-  for (std::size_t b = 0; b < grid.bricks.size(); ++b) {
-    for (std::uint64_t rest = grid.bricks[b].occupied; rest != 0; rest &= rest - 1)
-      cells.push_back(static_cast<std::uint32_t>(b * kCellsPerBrick) +
-                      static_cast<std::uint32_t>(std::countr_zero(rest)));
-  }
-  return cells;
-}
-
-/// The place of cell `number` of cell_number().
-std::array<int, 3> cell_place(const GridCells& grid, std::uint32_t number) {
-  const int bit = static_cast<int>(number % kCellsPerBrick),
-            brick = static_cast<int>(number / kCellsPerBrick);
-  const auto [nx, ny, nz] = grid.bricks_per_axis;
-  return {brick % nx * 4 + (bit & 3), brick / nx % ny * 4 + (bit >> 2 & 3), brick / nx / ny * 4 + (bit >> 4)};
+/// The lower corner of the cell with this index.
+Vec3d cell_corner(const GridCells& grid, std::size_t index) {
+  const auto nx = static_cast<std::size_t>(grid.counts[0]), ny = static_cast<std::size_t>(grid.counts[1]);
+  const Vec3d place(static_cast<double>(index % nx), static_cast<double>(index / nx % ny),
+                    static_cast<double>(index / nx / ny));
+  return grid.lo + place * grid.cell_size;
 }
 
 /// Replaces crowded lists by grids.
 void split_crowds(const Content& content, GridCells& grid, int depth) {
   if (depth >= kMaxDepth) return;
   std::vector<std::uint32_t> crowded;
-  for (std::uint32_t i = 0; i < grid.list_count(); ++i) {
+  for (std::uint32_t i = 0; i < grid.cell_count(); ++i) {
     if (grid.list(i).size() > kCrowd && grid.list(i).size() < content.selected.size()) crowded.push_back(i);
   }
   if (crowded.empty()) return;
-  const std::vector<std::uint32_t> cells = cells_of_lists(grid);
   std::vector<std::optional<GridCells>> children(crowded.size());
   parallel_for(crowded.size(), [&](std::size_t i) {
-    const auto place = cell_place(grid, cells[crowded[i]]);
-    const Vec3d lo = grid.lo + Vec3d(place[0], place[1], place[2]) * grid.cell_size;
+    const Vec3d lo = cell_corner(grid, crowded[i]);
     children[i] = split_crowd(content, grid.list(crowded[i]), lo - grid.margin,
                               lo + grid.cell_size + grid.margin, depth);
   });
@@ -296,8 +282,8 @@ void split_crowds(const Content& content, GridCells& grid, int depth) {
 GridCells build(const Content& content, double target, int depth) {
   GridCells grid = lay_out(content, target);
   sort_into_lists(find_references(content, grid), grid);
-  split_crowds(content, grid, depth);
   find_clearances(grid);
+  split_crowds(content, grid, depth);
   pack_vertices(content.triangles, grid);
   return grid;
 }
@@ -325,7 +311,8 @@ std::array<int, 3> cell_counts(const Vec3d& extent, double target) {
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     if (split[axis])
-      counts[axis] = static_cast<int>(std::clamp(std::round(extent[k] * per_unit), 1.0, kMaxCellsPerAxis));
+      counts[axis] = static_cast<int>(
+          std::clamp(std::round(extent[k] * per_unit), 1.0, double{GridCells::kMaxCellsPerAxis}));
   }
   return counts;
 }
@@ -336,7 +323,7 @@ const GridCells& GridCells::child(std::size_t i) const {
 }
 
 std::size_t GridCells::memory_bytes() const {
-  std::size_t bytes = bricks.capacity() * sizeof(Brick) + vertices.capacity() * sizeof(float) +
+  std::size_t bytes = clearance.capacity() + vertices.capacity() * sizeof(float) +
                       (first.capacity() + references.capacity() + crowded.capacity()) * sizeof(std::uint32_t);
   for (const GridCells& child : children) bytes += sizeof(GridCells) + child.memory_bytes();
   return bytes;

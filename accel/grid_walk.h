@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <limits>
 
 #include "accel/grid_cells.h"
@@ -16,170 +15,119 @@ namespace lemma {
 struct WalkedRay {
   LEMMA_INLINE explicit WalkedRay(const Ray& ray)
       : origin(ray.origin), direction(ray.direction), t_min(ray.t_min) {
-    for (int k = 0; k < 3; ++k) reciprocal[k] = 1 / direction[k];
+    for (int k = 0; k < 3; ++k) {
+      reciprocal[k] = 1 / direction[k];
+      octant |= direction[k] < 0 ? 0u : 1u << k;
+    }
   }
   Vec3d origin, direction, reciprocal;
   double t_min;
+  unsigned octant = 0;  // bit k: does not go down axis k
 };
 
-/// The occupied cells that a ray passes, in order: a 3D DDA within bricks that hold any, leaps over those
-/// that do not. Source: Amanatides, Woo, A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987.
-/// In double, and with crossings computed anew from indices at every brick: sums of steps would drift by 1e-2
-/// of a cell over 1000 cells in float32. Where a ray passes a cell's edge or corner either neighbour may come
-/// first; GridCells::margin covers both.
+/// The occupied cells that a ray passes, in order: a 3D DDA that leaps over empty space. Source: Amanatides,
+/// Woo, A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987.
+///
+/// The ray is clipped to the box in double; from there on all is float32, three axes in the lanes of a
+/// vector. Places in the grid err by less than 4 roundings of the number of cells an axis, 2^-10 of a cell
+/// with kMaxCellsPerAxis: planes are compared with where the ray entered before anything is scaled, so a ray
+/// that is all but parallel to a plane keeps that bound; sums of steps would not. Where a ray passes a cell's
+/// edge or corner either neighbour may come first. GridCells::margin covers both.
 class GridWalk {
  public:
   /// Stands at the first occupied cell, or is done.
   /// @param limit  no cell that the ray enters at t >= limit is of interest
-  LEMMA_INLINE GridWalk(const GridCells& grid, const WalkedRay& ray, double limit) : grid_(grid) {
+  LEMMA_INLINE GridWalk(const GridCells& grid, const WalkedRay& ray, float limit)
+      : counts_{grid.counts[0], grid.counts[1], grid.counts[2], 1},
+        row_(static_cast<std::size_t>(grid.counts[0])),
+        slice_(row_ * static_cast<std::size_t>(grid.counts[1])),
+        clearance_(grid.clearances(ray.octant)) {
     double enter = ray.t_min, leave = limit;
-    for (int k = 0; k < 3; ++k) clip(k, ray, enter, leave);
-    done_ = !(enter <= leave) || grid.bricks.empty();
+    for (int k = 0; k < 3; ++k) {
+      const double a = (grid.lo[k] - ray.origin[k]) * ray.reciprocal[k];
+      const double b = (grid.hi[k] - ray.origin[k]) * ray.reciprocal[k];
+      enter = std::max(enter, std::min(a, b));
+      leave = std::min(leave, std::max(a, b));
+    }
+    done_ = !(enter <= leave) || clearance_ == nullptr;
     if (done_) return;
-    for (int k = 0; k < 3; ++k) start(k, ray, enter);
-    enter_brick();
+    enter_ = enter;
+    for (int k = 0; k < 3; ++k) start(k, grid, ray);
+    place();
     find_occupied(limit);
   }
 
-  [[nodiscard]] bool done() const { return done_; }
+  [[nodiscard]] LEMMA_INLINE bool done() const { return done_; }
 
-  /// Number of the current cell's list.
-  [[nodiscard]] LEMMA_INLINE std::size_t list() const {
-    return brick_->first_list + static_cast<std::size_t>(std::popcount(brick_->occupied & (bit() - 1)));
-  }
-
-  /// t at which the ray leaves the current cell.
-  [[nodiscard]] LEMMA_INLINE double cell_exit() const { return crossing_[exit_axis()]; }
-
-  /// Place of the current cell.
-  [[nodiscard]] const std::array<int, 3>& position() const { return position_; }
+  /// Index of the current cell.
+  [[nodiscard]] LEMMA_INLINE std::size_t cell() const { return cell_; }
 
   /// Goes to the next occupied cell that the ray enters at t < limit, or is done.
-  LEMMA_INLINE void step(double limit) {
-    step_cell(limit);
+  LEMMA_INLINE void step(float limit) {
+    leap(1, limit);
     find_occupied(limit);
   }
 
  private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  // Three axes; the fourth lane is one of a grid of one cell that the ray never leaves.
+  using Ints [[gnu::vector_size(16)]] = int;
+  using Floats [[gnu::vector_size(16)]] = float;
 
-  /// Shortens [enter, leave] to the part between the two planes of axis k. A ray parallel to them is either
-  /// between them or nowhere; comparisons with NaN leave an empty interval.
-  LEMMA_INLINE void clip(int k, const WalkedRay& ray, double& enter, double& leave) const {
-    if (ray.direction[k] == 0) {
-      if (!(grid_.lo[k] <= ray.origin[k] && ray.origin[k] <= grid_.hi[k])) leave = -kNever;
-      return;
-    }
-    const double a = (grid_.lo[k] - ray.origin[k]) * ray.reciprocal[k];
-    const double b = (grid_.hi[k] - ray.origin[k]) * ray.reciprocal[k];
-    const double near = ray.direction[k] > 0 ? a : b, far = ray.direction[k] > 0 ? b : a;
-    if (!(near <= far)) leave = -kNever;  // not a number
-    enter = std::max(enter, near);
-    leave = std::min(leave, far);
+  LEMMA_INLINE void start(int k, const GridCells& grid, const WalkedRay& ray) {
+    const double entry = ray.origin[k] + enter_ * ray.direction[k];
+    const auto from = static_cast<float>((entry - grid.lo[k]) * grid.cells_per_unit[k]);
+    const auto last = static_cast<float>(counts_[k] - 1);
+    // The order of arguments makes 0 of what is not a number.
+    position_[k] = static_cast<int>(std::min(std::max(0.0f, from), last));
+    const bool parallel = ray.direction[k] == 0;
+    from_[k] = parallel ? static_cast<float>(position_[k]) + 0.5f : from;
+    speed_[k] = static_cast<float>(ray.direction[k] * grid.cells_per_unit[k]);
+    cell_time_[k] = parallel ? kNever : static_cast<float>(grid.cell_size[k] * ray.reciprocal[k]);
+    backward_[k] = ray.direction[k] < 0 ? -1 : 0;
   }
 
-  LEMMA_INLINE void start(int k, const WalkedRay& ray, double enter) {
-    const auto axis = static_cast<std::size_t>(k);
-    const double direction = ray.direction[k];
-    from_[axis] = (ray.origin[k] - grid_.lo[k]) * grid_.cells_per_unit[k];
-    speed_[axis] = direction * grid_.cells_per_unit[k];
-    forward_[axis] = direction > 0 ? 1 : 0;
-    moves_[axis] = direction > 0 ? 1 : direction < 0 ? -1 : 0;
-    end_[axis] = direction > 0 ? grid_.counts[axis] : -1;
-    cell_time_[axis] = direction != 0 ? grid_.cell_size[k] * ray.reciprocal[k] : 0;
-    first_time_[axis] = direction != 0 ? (grid_.lo[k] - ray.origin[k]) * ray.reciprocal[k] : kNever;
-    const double position = from_[axis] + enter * speed_[axis];
-    position_[axis] = static_cast<int>(std::clamp(position, 0.0, grid_.counts[axis] - 1.0));
+  LEMMA_INLINE void place() {
+    cell_ = static_cast<std::size_t>(position_[0]) + static_cast<std::size_t>(position_[1]) * row_ +
+            static_cast<std::size_t>(position_[2]) * slice_;
   }
 
-  /// t at which the ray meets the plane between cells i - 1 and i of axis k.
-  [[nodiscard]] LEMMA_INLINE double plane_time(std::size_t k, int i) const {
-    return first_time_[k] + i * cell_time_[k];
-  }
-
-  [[nodiscard]] LEMMA_INLINE std::uint64_t bit() const {
-    return std::uint64_t{1} << ((position_[0] & 3) | (position_[1] & 3) << 2 | (position_[2] & 3) << 4);
-  }
-
-  [[nodiscard]] LEMMA_INLINE std::size_t exit_axis() const {
-    const std::size_t k = crossing_[1] < crossing_[0] ? 1 : 0;
-    return crossing_[2] < crossing_[k] ? 2 : k;
-  }
-
-  LEMMA_INLINE void enter_brick() {
-    brick_ = &grid_.bricks[grid_.brick_index(position_[0] >> 2, position_[1] >> 2, position_[2] >> 2)];
-    if (brick_->occupied == 0) return;
-    for (std::size_t k = 0; k < 3; ++k) crossing_[k] = plane_time(k, position_[k] + forward_[k]);
-  }
-
-  LEMMA_INLINE void find_occupied(double limit) {
+  LEMMA_INLINE void find_occupied(float limit) {
     while (!done_) {
-      if (brick_->occupied == 0) {
-        leap(limit);
-      } else if ((brick_->occupied & bit()) == 0) {
-        step_cell(limit);
-      } else {
-        return;
-      }
+      const int clearance = clearance_[cell_];
+      if (clearance == 0) return;
+      leap(clearance, limit);
     }
   }
 
-  /// To the next cell, by the face through which the ray leaves this one.
-  LEMMA_INLINE void step_cell(double limit) {
-    const std::size_t k = exit_axis();
-    if (!(crossing_[k] < limit)) {
-      done_ = true;
-      return;
-    }
-    const int old = position_[k];
-    position_[k] += moves_[k];
-    if (position_[k] == end_[k]) {
-      done_ = true;
-    } else if ((position_[k] ^ old) < GridCells::kBrick) {
-      crossing_[k] += std::abs(cell_time_[k]);  // at most three sums before the next brick
-    } else {
-      enter_brick();
-    }
+  /// Out of the cube of `size` cells an axis, of which the current cell is the corner where the ray comes
+  /// from.
+  LEMMA_INLINE void leap(int size, float limit) {
+    const Ints plane = position_ + (backward_ ? 1 - Ints{} - size : Ints{} + size);
+    const Floats time = (__builtin_convertvector(plane, Floats) - from_) * cell_time_;
+    const float t = std::min(std::min(time[0], time[1]), time[2]);
+    const Ints exits = time <= t;
+    const Ints reached = __builtin_convertvector(from_ + t * speed_, Ints);
+    // Rounding must not send the walk back, or it might go in circles, nor out of the grid.
+    const Ints ahead = backward_ ? smaller(reached, position_) : larger(reached, position_);
+    const Ints inside = smaller(larger(ahead, Ints{}), counts_ - 1);
+    position_ = exits ? plane + backward_ : inside;
+    const Ints outside = (position_ < 0) | (position_ >= counts_);
+    done_ = !(t < limit - enter_) || (outside[0] | outside[1] | outside[2]) != 0;
+    if (!done_) place();
   }
 
-  /// Out of the cube of empty bricks around this one.
-  LEMMA_INLINE void leap(double limit) {
-    const int reach = static_cast<int>(brick_->clearance);
-    std::array<int, 3> plane;
-    std::array<double, 3> time;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int brick = position_[k] >> 2;
-      plane[k] = GridCells::kBrick * (forward_[k] != 0 ? brick + reach : brick - reach + 1);
-      time[k] = plane_time(k, plane[k]);
-    }
-    std::size_t exit = time[1] < time[0] ? 1 : 0;
-    if (time[2] < time[exit]) exit = 2;
-    const double t = time[exit];
-    if (!(t < limit)) {
-      done_ = true;
-      return;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int cell = static_cast<int>(from_[k] + t * speed_[k]);
-      // Rounding must not send the walk back, or it might go in circles.
-      position_[k] = forward_[k] != 0 ? std::min(std::max(cell, position_[k]), grid_.counts[k] - 1)
-                                      : std::max(std::min(cell, position_[k]), 0);
-    }
-    position_[exit] = forward_[exit] != 0 ? plane[exit] : plane[exit] - 1;
-    if (position_[exit] < 0 || position_[exit] >= grid_.counts[exit]) {
-      done_ = true;
-      return;
-    }
-    enter_brick();
-  }
+  LEMMA_INLINE static Ints smaller(Ints a, Ints b) { return a < b ? a : b; }
+  LEMMA_INLINE static Ints larger(Ints a, Ints b) { return a > b ? a : b; }
 
-  const GridCells& grid_;
-  const Brick* brick_ = nullptr;
+  static constexpr float kNever = std::numeric_limits<float>::max();
+
+  Ints position_{}, counts_, backward_{};
+  Floats from_{}, speed_{};                           // place of the ray in cells: from + (t - enter) speed
+  Floats cell_time_{kNever, kNever, kNever, kNever};  // t that the ray takes for a cell
+  double enter_ = 0;                                  // t at which the ray enters the grid
+  std::size_t row_, slice_, cell_ = 0;
+  const std::uint8_t* clearance_;
   bool done_;
-  std::array<int, 3> position_{}, moves_{}, forward_{}, end_{};
-  std::array<double, 3> from_{}, speed_{};            // place of the ray in cells: from + t speed
-  std::array<double, 3> cell_time_{}, first_time_{};  // t of plane i: first_time + i cell_time
-  std::array<double, 3> crossing_{};  // t at which the ray leaves the current cell by each axis
 };
 
 }  // namespace lemma

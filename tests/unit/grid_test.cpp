@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <optional>
 #include <set>
 
@@ -32,7 +31,7 @@ TEST(GridCells, RulesOfResolution) {
   };
   // Rounding each axis to whole cells changes the number by less than half a cell an axis: 1.5 / 10 of 1000
   // cells.
-  EXPECT_NEAR(static_cast<double>(cells({})), 4000, 0.1 * 4000);
+  EXPECT_NEAR(static_cast<double>(cells({})), 2000, 0.12 * 2000);
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::twenty_seven, 0})), 27000, 0.05 * 27000);
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::density, 100000})), 100000, 0.04 * 100000);
 }
@@ -61,23 +60,22 @@ TEST(BoxOverlap, DeniesBoxesBesideTheTriangle) {
   EXPECT_FALSE(overlap.with_box_at({0.8, 0.8, 0}));     // beyond its hypotenuse
 }
 
-/// The list of the cell that p lies in, if it is occupied and p not within rounding of its faces.
-std::optional<std::size_t> list_inside(const GridCells& grid, const Vec3d& p) {
+/// The cell that p lies in, if it is occupied and p not so near its faces that a walk may miss it.
+std::optional<std::size_t> occupied_cell_at(const GridCells& grid, const Vec3d& p) {
   std::array<int, 3> cell{};
   for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
     const double position = (p[k] - grid.lo[k]) * grid.cells_per_unit[k];
     const double rest = position - std::floor(position);
-    if (rest < 1e-6 || rest > 1 - 1e-6) return std::nullopt;
-    cell[static_cast<std::size_t>(k)] = static_cast<int>(std::floor(position));
-    if (position < 0 || position >= grid.counts[static_cast<std::size_t>(k)]) return std::nullopt;
+    if (rest < 0x1p-10 || rest > 1 - 0x1p-10 || position < 0 || position >= grid.counts[axis])
+      return std::nullopt;
+    cell[axis] = static_cast<int>(position);
   }
-  const Brick& brick = grid.bricks[grid.brick_index(cell[0] / 4, cell[1] / 4, cell[2] / 4)];
-  const std::uint64_t bit = std::uint64_t{1} << (cell[0] % 4 + cell[1] % 4 * 4 + cell[2] % 4 * 16);
-  if ((brick.occupied & bit) == 0) return std::nullopt;
-  return brick.first_list + static_cast<std::size_t>(std::popcount(brick.occupied & (bit - 1)));
+  const std::size_t index = grid.index(cell);
+  return grid.clearances(0)[index] == 0 ? std::optional(index) : std::nullopt;
 }
 
-/// The lists of the cells along a ray, in order, are those that a search of points along it finds.
+/// Steps along rays find no occupied cell that the walk does not visit.
 TEST(GridWalk, VisitsTheOccupiedCellsAlongTheRay) {
   const GridCells grid = build_grid_cells(test::random_triangles(300, 0.05f, 4), {});
   std::size_t visits = 0;
@@ -86,19 +84,47 @@ TEST(GridWalk, VisitsTheOccupiedCellsAlongTheRay) {
     const Vec3 from = test::random_point(random) * 3.0f - Vec3(1), to = test::random_point(random);
     const Ray ray{from, to - from};
     std::set<std::size_t> visited;
-    double left = 0;
     for (GridWalk walk(grid, WalkedRay(ray), ray.t_max); !walk.done(); walk.step(ray.t_max)) {
-      EXPECT_GE(walk.cell_exit(), left - 1e-12);
-      left = walk.cell_exit();
-      EXPECT_TRUE(visited.insert(walk.list()).second) << "a cell was visited twice";
+      EXPECT_TRUE(visited.insert(walk.cell()).second) << "a cell was visited twice";
     }
     visits += visited.size();
     for (double t = 0; t < 3; t += 0.01) {
-      const auto list = list_inside(grid, Vec3d(ray.origin) + Vec3d(ray.direction) * t);
-      EXPECT_TRUE(!list || visited.contains(*list));
+      const auto cell = occupied_cell_at(grid, Vec3d(ray.origin) + Vec3d(ray.direction) * t);
+      EXPECT_TRUE(!cell || visited.contains(*cell));
     }
   }
   EXPECT_GT(visits, 2000u);
+}
+
+/// The cube that a clearance speaks of is empty, and the next larger one is not or leaves the grid's far
+/// side.
+TEST(GridCells, ClearancesAreThoseOfTheLargestEmptyCubes) {
+  const GridCells grid =
+      build_grid_cells(test::random_triangles(12, 0.1f, 6), {GridResolution::Rule::density, 1000});
+  const auto [nx, ny, nz] = grid.counts;
+  const auto cube_is_empty = [&](int x, int y, int z, unsigned octant, int size) {
+    const auto end = [&](int from, unsigned bit) {
+      return (octant & bit) != 0 ? from + size - 1 : from - size + 1;
+    };
+    const auto inside = [](int i, int n) { return std::clamp(i, 0, n - 1); };
+    const int x1 = inside(end(x, 1), nx), y1 = inside(end(y, 2), ny), z1 = inside(end(z, 4), nz);
+    for (int w = std::min(z, z1); w <= std::max(z, z1); ++w)
+      for (int v = std::min(y, y1); v <= std::max(y, y1); ++v)
+        for (int u = std::min(x, x1); u <= std::max(x, x1); ++u)
+          if (!grid.list(grid.index({u, v, w})).empty()) return false;
+    return true;
+  };
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    for (int z = 0; z < nz; ++z) {
+      for (int y = 0; y < ny; ++y) {
+        for (int x = 0; x < nx; ++x) {
+          const int clearance = grid.clearances(octant)[grid.index({x, y, z})];
+          ASSERT_TRUE(clearance == 0 || cube_is_empty(x, y, z, octant, clearance));
+          ASSERT_TRUE(clearance == 255 || !cube_is_empty(x, y, z, octant, clearance + 1));
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
