@@ -73,15 +73,18 @@ Outcome thin_gap(std::string_view backend) {
 Outcome blocked_samples(std::string_view backend, const std::vector<Triangle>& triangles,
                         const std::vector<Emitter>& emitters, const std::vector<Triangle>& receiver) {
   const auto accel = make_backend(backend, triangles);
-  const auto lights = light_samplers().front().value(emitters);
   Outcome outcome;
-  for (std::uint32_t i = 0; i < 50000; ++i) {
-    Sampler random(83, i, 0);
-    const Vec3 origin = origin_above(random_surface_point(receiver, random));
-    const auto light = lights->sample(lights->query(origin), random);
-    if (!light) continue;
-    ++outcome.rays;
-    outcome.faults += accel->occluded({origin, light->to_light, 0, light->visible_until}) ? 1 : 0;
+  for (const auto& strategy : light_samplers()) {
+    const auto lights = strategy.value(emitters);
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+      Sampler random(83, i, 0);
+      const SurfacePoint p = random_surface_point(receiver, random);
+      const Vec3 origin = origin_above(p);
+      const auto light = lights->sample(lights->query(origin, Vec3(p.normal)), random);
+      if (!light) continue;
+      ++outcome.rays;
+      outcome.faults += accel->occluded(Ray{origin, light->to_light, 0, light->visible_until}) ? 1 : 0;
+    }
   }
   return outcome;
 }
