@@ -49,9 +49,6 @@ std::optional<GridResolution> parse_grid_cells(const std::string& text) {
 }
 
 void add_transport_options(CLI::App& app, RenderOptions& o) {
-  static constexpr Named<PhongNorm> norms[] = {
-      {"n+1", PhongNorm::n_plus_1, "(n + 1) / (2 pi), the report's eq. (3)"},
-      {"n+2", PhongNorm::n_plus_2, "(n + 2) / (2 pi), albedo 1 at normal incidence for ks 1"}};
   static constexpr Named<bool> emitters[] = {
       {"absorb", false, "paths end at emitters (the report's rule)"},
       {"reflect", true, "emitters also reflect, as their materials say"}};
@@ -75,8 +72,13 @@ void add_transport_options(CLI::App& app, RenderOptions& o) {
       app, "--max-depth", o.integrator_options.max_depth, 0, IntegratorOptions::kLastResortDepth,
       "Scattering events on a path at most; 1 is direct light. Paths cut are counted: they make a bias");
   add_choice(
-      app, "--phong-norm", std::span<const Named<PhongNorm>>(norms),
-      [&o](auto& entry) { o.load.phong_norm = entry.value; }, "Factor of the Phong lobe");
+      app, "--brdf", lobes(), [&o](auto& entry) { o.load.brdf.lobe = entry.value; }, "The specular lobe");
+  add_choice(
+      app, "--phong-norm", phong_norms(), [&o](auto& entry) { o.load.brdf.norm = entry.value; },
+      "Factor of the Phong lobe");
+  add_choice(
+      app, "--brdf-sampling", lobe_samplings(), [&o](auto& entry) { o.load.brdf.sampling = entry.value; },
+      "Directions of the Phong lobe that are drawn");
   add_choice(
       app, "--emitters", std::span<const Named<bool>>(emitters),
       [&o](auto& entry) { o.integrator_options.emitters_reflect = entry.value; },

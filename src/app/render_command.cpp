@@ -39,13 +39,15 @@ LoadedScene load(const RenderOptions& options) {
 /// The options that the image depends on, as a command line would say them.
 std::string image_options(const RenderOptions& o, const CameraView& view) {
   const IntegratorOptions& i = o.integrator_options;
+  const BrdfOptions& b = o.load.brdf;
   return fmt::format(
-      "--accel {} --integrator {} --lights {} --mis {} --technique {} --rr {} --max-depth {} --phong-norm {} "
-      "--emitters {} --sampler {} --spp {} --seed {} --size {}x{}",
+      "--accel {} --integrator {} --lights {} --mis {} --technique {} --rr {} --max-depth {} --brdf {} "
+      "--phong-norm {} --brdf-sampling {} --emitters {} --sampler {} --spp {} --seed {} --size {}x{}",
       o.accel.name, o.integrator.name, o.lights.name, name_of(heuristics(), i.heuristic),
       name_of(counted_samples(), i.counted_samples), name_of(roulettes(), i.roulette), i.max_depth,
-      o.load.phong_norm == PhongNorm::n_plus_1 ? "n+1" : "n+2", i.emitters_reflect ? "reflect" : "absorb",
-      name_of(sequences(), o.settings.sequence), o.settings.spp, o.settings.seed, view.width, view.height);
+      name_of(lobes(), b.lobe), name_of(phong_norms(), b.norm), name_of(lobe_samplings(), b.sampling),
+      i.emitters_reflect ? "reflect" : "absorb", name_of(sequences(), o.settings.sequence), o.settings.spp,
+      o.settings.seed, view.width, view.height);
 }
 
 /// Nothing of it depends on when, where, or on how many threads the image was made: same input, same bytes.

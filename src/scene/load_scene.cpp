@@ -52,7 +52,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   number_lights(lights, table.materials, scene, report.warnings);
   const std::vector<bool> reflects = find_reflecting(scene, table.materials.size());
   if (scene.emitters.empty()) throw no_emitters({files.xml}, table.materials, reflects);
-  scene.materials = make_materials(table.materials, reflects, options.phong_norm, report.warnings);
+  scene.materials = make_materials(table.materials, reflects, options.brdf, report.warnings);
   scene.overlays = find_overlays(scene.triangles, scene.emitters);
   scene.needs.model.overlays = !scene.overlays.empty();
   scene.needs.model.specular = any_specular(scene.materials, reflects);

@@ -9,7 +9,7 @@
 namespace lemma {
 
 struct LoadOptions {
-  PhongNorm phong_norm = PhongNorm::n_plus_1;
+  BrdfOptions brdf;
 };
 
 /// What was read and what became of it.

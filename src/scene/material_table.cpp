@@ -102,12 +102,13 @@ MaterialTable read_materials(const std::vector<std::filesystem::path>& mtl_files
 }
 
 std::vector<Material> make_materials(const std::vector<MtlMaterial>& materials,
-                                     const std::vector<bool>& reflects, PhongNorm norm, Warnings& warnings) {
+                                     const std::vector<bool>& reflects, const BrdfOptions& brdf,
+                                     Warnings& warnings) {
   warn_of_limits(materials, reflects, warnings);
   std::vector<Material> made;
   made.reserve(materials.size());
   for (const MtlMaterial& m : materials) {
-    made.push_back(make_material(is_textured_black(m) ? kGrey : m.kd, m.ks, m.ns, norm));
+    made.push_back(make_material(is_textured_black(m) ? kGrey : m.kd, m.ks, m.ns, brdf));
   }
   return made;
 }

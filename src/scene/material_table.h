@@ -26,7 +26,7 @@ struct MaterialTable {
 /// where Kd is 0), glass (Ni > 1 is opaque). Warned of once, but used as it is: Kd + Ks > 1.
 /// @param reflects  of each material whether a triangle reflects by it; the others are not warned of
 [[nodiscard]] std::vector<Material> make_materials(const std::vector<MtlMaterial>& materials,
-                                                   const std::vector<bool>& reflects, PhongNorm norm,
+                                                   const std::vector<bool>& reflects, const BrdfOptions& brdf,
                                                    Warnings& warnings);
 
 }  // namespace lemma

@@ -5,25 +5,30 @@
 #include "src/core/pdf.h"
 #include "src/core/rgb.h"
 #include "src/core/vec.h"
+#include "src/shading/brdf_options.h"
 
 namespace lemma {
-
-/// The factor in front of the Phong lobe: (n + 1) / (2 pi), the report's eq. (3), or (n + 2) / (2 pi), which
-/// makes the albedo at normal incidence 1 for ks = 1.
-enum class PhongNorm { n_plus_1, n_plus_2 };
 
 /// What a surface reflects. All values linear, per channel.
 struct Material {
   Rgb kd;              // diffuse albedo [1]
   Rgb ks;              // specular coefficient [1]
   float exponent = 1;  // n >= 0
+  Lobe lobe = Lobe::phong;
+  LobeSampling sampling = LobeSampling::truncated;
 
-  float specular_factor = 0;      // (n + 1) / (2 pi) or (n + 2) / (2 pi) [sr^-1]
+  float specular_factor = 0;      // in front of the lobe, as Lobe and PhongNorm say [sr^-1]
   float diffuse_probability = 1;  // kd : ks, by their channel sums; the choice of p6
 };
 
-/// Fills in the derived values from kd, ks and exponent.
-[[nodiscard]] Material make_material(const Rgb& kd, const Rgb& ks, float exponent, PhongNorm norm);
+/// Fills in the derived values. The factor of Blinn's lobe makes its albedo at normal incidence 1 for ks = 1:
+/// (n + 2) (n + 4) / (8 pi (2^(-n/2) + n)); PhongNorm does not touch it.
+[[nodiscard]] Material make_material(const Rgb& kd, const Rgb& ks, float exponent,
+                                     const BrdfOptions& options = {});
+
+/// The part of the light that the material reflects at most, over channels and directions: that at normal
+/// incidence.
+[[nodiscard]] float largest_albedo(const Material& material);
 
 /// A direction drawn from a BRDF.
 struct BrdfSample {
@@ -32,12 +37,11 @@ struct BrdfSample {
   Rgb weight;         // f cos(theta_i) / pdf
 };
 
-/// A Lambert term and a Phong lobe about the mirror direction, in a local frame whose z axis is the shading
-/// normal:
-///   f = kd / pi + ks (n + 1) / (2 pi) max(0, cos alpha)^n,   alpha between wi and the mirror direction of wo
-/// (the report's eq. (3); Lafortune and Willems, Using the Modified Phong Reflectance Model, 1994). wo and wi
-/// are unit, both leave the surface; f and pdf are 0 unless both z > 0. With Specular = false only the
-/// Lambert term exists: scenes without ks pay nothing for the lobe.
+/// A Lambert term and a specular lobe, in a local frame whose z axis is the shading normal:
+///   f = kd / pi + ks (n + 1) / (2 pi) max(0, cos alpha)^n
+/// with alpha between wi and the mirror direction of wo (the report's eq. (3)), or the other factor and angle
+/// that BrdfOptions chose. wo and wi are unit, both leave the surface; f and pdf are 0 unless both z > 0.
+/// With Specular = false only the Lambert term exists: scenes without ks pay nothing for the lobe.
 template <bool Specular>
 class Phong {
  public:
@@ -49,12 +53,17 @@ class Phong {
   /// Density with which sample() returns wi.
   [[nodiscard]] PdfSolidAngle pdf(const Vec3& wo, const Vec3& wi) const;
 
-  /// The report's p6: diffuse or specular by kd : ks, then the cosine-weighted hemisphere or the lobe.
+  /// The report's p6: diffuse or specular by kd : ks, then the cosine-weighted hemisphere or the lobe, of
+  /// which LobeSampling::truncated draws only the part above the surface.
   /// @param choice, u  uniform in [0, 1)
-  /// @return nothing if the material is black or the lobe's direction lies below the surface
+  /// @return nothing if the material is black or the lobe's direction lies below the surface, which
+  /// directions
+  ///   of the truncated lobe do by rounding alone
   [[nodiscard]] std::optional<BrdfSample> sample(const Vec3& wo, float choice, const Vec2& u) const;
 
  private:
+  [[nodiscard]] bool is_lambert() const;
+
   const Material& material_;
 };
 

@@ -49,7 +49,8 @@ def same_pixels(image, other):
 
 def choices(option):
     """The names that help lists for an option of `lemma render`, in its order."""
-    block = re.search(rf"^  {option} NAME.*\n((?: {{32}}\S.*\n)+)", render_help(), re.MULTILINE).group(1)
+    long_name = r"(?: {30}\S.*\n)?"  # what the option is for, where its name fills the line
+    block = re.search(rf"^  {option} NAME.*\n{long_name}((?: {{32}}\S.*\n)+)", render_help(), re.MULTILINE).group(1)
     return re.findall(r"^ +([^ :]+):", block, re.MULTILINE)
 
 

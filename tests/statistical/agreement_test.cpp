@@ -115,7 +115,7 @@ Scene furnace(float albedo) {
   Scene scene;
   scene.view = {{0.2f, 0.3f, 0.4f}, {0.9f, 0.6f, 0.5f}, {0, 1, 0}, 60, 8, 8};
   scene.triangles = test::inward_box({-1, -1, -1}, {1, 1, 2});
-  scene.materials = {make_material({albedo, albedo, albedo}, {}, 1, PhongNorm::n_plus_1)};
+  scene.materials = {make_material({albedo, albedo, albedo}, {}, 1)};
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
     scene.facets.push_back({0, i});
     scene.emitters.push_back({scene.triangles[i], {1, 1, 1}, i, 0});

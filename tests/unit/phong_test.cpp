@@ -2,176 +2,162 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "src/core/sampler.h"
 #include "src/core/warp.h"
 #include "src/shading/phong.h"
+#include "tests/support/hemisphere.h"
 
 namespace lemma {
 namespace {
 
-Vec3 direction(double theta_degrees, double phi = 0.3) {
-  const double theta = theta_degrees * M_PI / 180;
-  return {static_cast<float>(std::sin(theta) * std::cos(phi)),
-          static_cast<float>(std::sin(theta) * std::sin(phi)), static_cast<float>(std::cos(theta))};
+using test::direction;
+
+Material grey(float kd, float ks, float exponent, const BrdfOptions& options = {}) {
+  return make_material({kd, kd, kd}, {ks, ks, ks}, exponent, options);
 }
 
-Material glossy(float exponent, float kd = 0.3f, float ks = 0.5f, PhongNorm norm = PhongNorm::n_plus_1) {
-  return make_material({kd, kd, kd}, {ks, ks, ks}, exponent, norm);
+/// Integral of f cos(theta_i) over the hemisphere. The points lie as the lobe's own directions do, so that
+/// what is summed is f / cos^n, which is constant, times the cosine.
+double lobe_albedo(const Material& material, const Vec3& wo) {
+  const Phong<true> brdf(material);
+  const Vec3 mirror(-wo.x, -wo.y, wo.z);
+  const double n = material.exponent;
+  return test::lobe_mean(mirror, n, [&](const Vec3& wi) {
+    if (wi.z <= 0) return 0.0;
+    const double x = test::AboutAxis(mirror).one_minus_cos(wi);
+    const double density = (n + 1) / (2 * M_PI) * std::pow(1 - x, n);
+    return double{brdf.eval(wo, wi).g} * wi.z / density;
+  });
 }
 
-/// Integral of g over the hemisphere by the midpoint rule in (cos theta, phi): for smooth g, error below
-/// 1e-4.
-template <class G>
-double integrate_hemisphere(const G& g) {
-  constexpr int rows = 1000, columns = 2000;
-  double sum = 0;
-  for (int i = 0; i < rows; ++i) {
-    const double z = (i + 0.5) / rows, r = std::sqrt(1 - z * z);
-    for (int j = 0; j < columns; ++j) {
-      const double phi = 2 * M_PI * (j + 0.5) / columns;
-      sum += g(Vec3(static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
-                    static_cast<float>(z)));
-    }
-  }
-  return sum * 2 * M_PI / rows / columns;
-}
+constexpr std::array<double, 5> kAngles{0, 30, 60, 75, 85};
 
-/// Directional albedo of the lobe alone with factor (n + 1) / (2 pi), by numerical quadrature to 5 digits.
+struct AlbedoRow {
+  float n;
+  std::array<double, 5> albedo;  // at kAngles
+};
+
+/// Directional albedo of the lobe with factor (n + 1) / (2 pi), by numerical quadrature in double, 5 digits.
+constexpr AlbedoRow kAlbedo[] = {{1, {.66667, .58723, .40600, .30563, .24206}},
+                                 {5, {.85715, .74250, .44521, .28040, .18562}},
+                                 {20, {.95455, .82666, .47776, .25885, .13201}},
+                                 {100, {.99020, .85754, .49510, .25641, .09666}},
+                                 {1000, {.99900, .86516, .49950, .25856, .08710}}};
+
 TEST(Phong, DirectionalAlbedoOfTheLobe) {
-  struct Row {
-    float n;
-    std::array<double, 5> albedo;
-  };
-  constexpr std::array<double, 5> angles{0, 30, 60, 75, 85};
-  const Row rows[] = {{1, {.66667, .58723, .40600, .30563, .24206}},
-                      {5, {.85715, .74250, .44521, .28040, .18562}},
-                      {20, {.95455, .82666, .47776, .25885, .13201}},
-                      {100, {.99020, .85754, .49510, .25641, .09666}}};
-  for (const Row& row : rows) {
-    const Material material = glossy(row.n, 0, 1);
-    const Phong<true> brdf(material);
-    for (std::size_t a = 0; a < angles.size(); ++a) {
-      const Vec3 wo = direction(angles[a]);
-      const double albedo =
-          integrate_hemisphere([&](const Vec3& wi) { return double{brdf.eval(wo, wi).g} * wi.z; });
-      // The midpoint rule over 1000 rows of cos(theta) errs by (n / 1000)^2 / 24 at a lobe's peak, where
-      // eval's curve bends most; and directions in float32 by n roundings.
-      EXPECT_NEAR(albedo, row.albedo[a], 2e-5 + 0.1 * row.n * row.n * 1e-6 + 2 * row.n * 0x1p-24)
-          << "n " << row.n << " angle " << angles[a];
+  for (const AlbedoRow& row : kAlbedo) {
+    for (std::size_t a = 0; a < kAngles.size(); ++a) {
+      // Five digits of the table; the midpoint rule's error where the horizon cuts its 600 x 600 cells, which
+      // is below 600^-1.5; and roundings of unit vectors, which the exponent multiplies.
+      const double tolerance = 1e-5 + 7e-5 * row.albedo[a] + 2 * row.n * 0x1p-24;
+      EXPECT_NEAR(lobe_albedo(grey(0, 1, row.n), direction(kAngles[a])), row.albedo[a], tolerance)
+          << "n " << row.n << " angle " << kAngles[a];
     }
   }
 }
 
-/// The part of the mixture's density above the surface: 1 less the share of lobe samples that fall below.
-TEST(Phong, SampledShareEqualsIntegratedDensity) {
-  for (const float n : {0.0f, 1.0f, 5.0f, 100.0f}) {
-    for (const double angle : {0.0, 60.0, 85.0}) {
-      const Material material = glossy(n);
-      const Phong<true> brdf(material);
-      const Vec3 wo = direction(angle);
-      const double mass =
-          integrate_hemisphere([&](const Vec3& wi) { return double{brdf.pdf(wo, wi).value}; });
-      constexpr int draws = 200000;
-      int above = 0;
-      Sampler random(11, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(angle));
-      for (int i = 0; i < draws; ++i) {
-        const float choice = random.next();
-        if (brdf.sample(wo, choice, random.next_2d())) ++above;
+/// The same table from samples: the mean weight is the albedo, whichever directions are drawn.
+TEST(Phong, MeanWeightIsTheDirectionalAlbedo) {
+  constexpr int draws = 40000;
+  for (const auto& sampling : lobe_samplings()) {
+    for (const AlbedoRow& row : kAlbedo) {
+      for (std::size_t a = 0; a < kAngles.size(); ++a) {
+        const Material material = grey(0, 1, row.n, {.sampling = sampling.value});
+        Sampler random(10, static_cast<std::uint32_t>(row.n), static_cast<std::uint32_t>(a));
+        double sum = 0, squares = 0;
+        for (int i = 0; i < draws; ++i) {
+          const auto sample = Phong<true>(material).sample(direction(kAngles[a]), 0, random.next_2d());
+          const double weight = sample ? double{sample->weight.g} : 0.0;
+          sum += weight, squares += weight * weight;
+        }
+        const double mean = sum / draws, error = std::sqrt((squares / draws - mean * mean) / draws);
+        // 50 tests: 4.9 standard errors are exceeded in one of them with probability 5e-5.
+        EXPECT_NEAR(mean, row.albedo[a], 4.9 * error + 1e-5)
+            << sampling.name << " n " << row.n << " angle " << kAngles[a];
       }
-      // A binomial share: 5 standard deviations are exceeded once in 1.7 million draws, 12 tests here.
-      const double share = static_cast<double>(above) / draws;
-      EXPECT_NEAR(share, mass, 5 * 0.5 / std::sqrt(draws) + 1e-4) << "n " << n << " angle " << angle;
     }
   }
 }
 
-TEST(Phong, SamplePdfAndEvalAgree) {
-  for (const float n : {0.0f, 1.0f, 100.0f, 1e4f, 1e6f}) {
-    const Material material = glossy(n);
-    const Phong<true> brdf(material);
-    Sampler random(12, static_cast<std::uint32_t>(n), 0);
-    for (int i = 0; i < 2000; ++i) {
-      const Vec3 wo = cosine_hemisphere(random.next_2d());
-      const float choice = random.next();
-      const auto sample = brdf.sample(wo, choice, random.next_2d());
-      if (!sample) continue;
-      ASSERT_NEAR(length(sample->wi), 1, 1e-6);
-      // The same expressions in another order: a few roundings.
-      ASSERT_NEAR(sample->pdf.value / brdf.pdf(wo, sample->wi).value, 1, 1e-5);
-      const Rgb expected = brdf.eval(wo, sample->wi) * (sample->wi.z / sample->pdf.value);
-      ASSERT_NEAR(sample->weight.g, expected.g, 1e-5f * expected.g + 1e-12f);
+TEST(Phong, LargestAlbedoIsThatAtNormalIncidence) {
+  for (const float n : {0.0f, 1.0f, 20.0f, 1e6f}) {
+    EXPECT_FLOAT_EQ(largest_albedo(grey(0.25f, 0.5f, n)), 0.25f + 0.5f * (n + 1) / (n + 2));
+    EXPECT_FLOAT_EQ(largest_albedo(grey(0.25f, 0.5f, n, {.norm = PhongNorm::n_plus_2})), 0.75f);
+    EXPECT_FLOAT_EQ(largest_albedo(grey(0.25f, 0.5f, n, {.lobe = Lobe::blinn_phong})), 0.75f);
+  }
+  EXPECT_EQ(largest_albedo(make_material({0.1f, 0.9f, 0.3f}, {}, 1)), 0.9f);
+}
+
+/// Blinn's factor is exact: the albedo of the lobe alone is 1 at normal incidence and no larger elsewhere.
+/// Integrated over half vectors, dwi = 4 (wo . h) dh, by the midpoint rule in their own coordinates.
+TEST(BlinnPhong, AlbedoIsOneAtNormalIncidenceAndLessElsewhere) {
+  const auto albedo = [](float n, double angle) {
+    const Material material = grey(0, 1, n, {.lobe = Lobe::blinn_phong});
+    const Vec3 wo = direction(angle);
+    return test::lobe_mean({0, 0, 1}, n, [&](const Vec3& h) {
+      const float cos_h = dot(wo, h);
+      const Vec3 wi = h * (2 * cos_h) - wo;
+      if (cos_h <= 0 || wi.z <= 0) return 0.0;
+      const double density = (n + 1) / (2 * M_PI) * std::pow(double{h.z}, double{n});
+      return double{Phong<true>(material).eval(wo, wi).g} * wi.z * 4 * cos_h / density;
+    });
+  };
+  for (const float n : {0.0f, 1.0f, 5.0f, 20.0f, 100.0f, 1000.0f}) {
+    const double tolerance = 1e-4 + 4 * n * 0x1p-24;  // as above
+    EXPECT_NEAR(albedo(n, 0), 1, tolerance) << n;
+    for (const double angle : {30.0, 60.0, 75.0, 85.0}) EXPECT_LT(albedo(n, angle), 1 + tolerance) << n;
+  }
+}
+
+/// cos^n keeps its digits: against (1 - x)^n in long double, x from the very directions.
+TEST(Phong, SharpLobesKeepTheirDigits) {
+  for (const float n : {1.0f, 100.0f, 1e4f, 1e5f, 1e6f}) {
+    const Material material = grey(0, 1, n);
+    const Vec3 wo = direction(40), mirror(-wo.x, -wo.y, wo.z);
+    const test::AboutAxis about(mirror);
+    for (int i = 1; i < 100; ++i) {
+      const Vec3 wi = about.at(-std::expm1(std::log(i / 100.0) / (n + 1)), i);
+      if (wi.z <= 0) continue;
+      const long double x = about.one_minus_cos(wi);
+      const double expected = static_cast<double>((n + 1) / (2 * M_PI) * std::exp(n * std::log1p(-x)));
+      // n x <= 5 is rounded thrice, d^2 / 2 with 6 roundings of |d| * 1e-7 each.
+      const double d = std::sqrt(2 * static_cast<double>(x));
+      EXPECT_NEAR(Phong<true>(material).eval(wo, wi).g / expected, 1, 32 * 0x1p-24 + n * d * 0x1p-23) << n;
     }
   }
 }
 
 TEST(Phong, IsReciprocal) {
-  const Material material = glossy(50);
-  const Phong<true> brdf(material);
-  Sampler random(13, 0, 0);
-  for (int i = 0; i < 2000; ++i) {
-    const Vec3 a = cosine_hemisphere(random.next_2d()), b = cosine_hemisphere(random.next_2d());
-    // The lobe's exponent 50 multiplies a rounding of the angle.
-    ASSERT_NEAR(brdf.eval(a, b).g, brdf.eval(b, a).g, 1e-4f * brdf.eval(a, b).g + 1e-9f);
-  }
-}
-
-/// Narrow lobes keep their digits: with sharp exponents the mean of 1 - cos(alpha) over samples is 1 / (n +
-/// 2).
-TEST(Phong, NarrowLobesAreSampledWithTheRightWidth) {
-  for (const float n : {1e3f, 1e5f, 1e6f}) {
-    const Material material = glossy(n, 0, 1);
-    const Phong<true> brdf(material);
-    const Vec3 wo = direction(30), mirror(-wo.x, -wo.y, wo.z);
-    constexpr int draws = 100000;
-    double sum = 0;
-    Sampler random(14, static_cast<std::uint32_t>(n), 0);
-    for (int i = 0; i < draws; ++i) {
-      const auto sample = brdf.sample(wo, 0.5f, random.next_2d());
-      ASSERT_TRUE(sample);
-      const Vec3d d = Vec3d(sample->wi) - Vec3d(mirror);
-      sum += 0.5 * dot(d, d);
+  for (const auto& lobe : lobes()) {
+    for (const float n : {0.0f, 1.0f, 50.0f, 1000.0f}) {
+      const Material material = grey(0.3f, 0.5f, n, {.lobe = lobe.value});
+      const Phong<true> brdf(material);
+      Sampler random(13, 0, 0);
+      for (int i = 0; i < 2000; ++i) {
+        const Vec3 a = cosine_hemisphere(random.next_2d()), b = cosine_hemisphere(random.next_2d());
+        // The exponent multiplies a rounding of 1 - cos(alpha), of up to eight units.
+        ASSERT_NEAR(brdf.eval(a, b).g, brdf.eval(b, a).g, (n + 4) * 8 * 0x1p-24f * brdf.eval(a, b).g + 1e-9f);
+      }
     }
-    // Relative standard deviation of one value is about 1; roundings of unit vectors, 6e-8, shift d^2 / 2 by
-    // 1e-14.
-    EXPECT_NEAR(sum / draws * (n + 2), 1, 5 / std::sqrt(draws) + 1e-2 * (n / 1e6)) << n;
   }
 }
 
 TEST(Phong, NormalisationIsAChoice) {
-  const Material one = glossy(3, 0, 1, PhongNorm::n_plus_1), two = glossy(3, 0, 1, PhongNorm::n_plus_2);
+  const Material one = grey(0, 1, 3), two = grey(0, 1, 3, {.norm = PhongNorm::n_plus_2});
   const Vec3 up(0, 0, 1);
   EXPECT_FLOAT_EQ(Phong<true>(one).eval(up, up).g, static_cast<float>(4 / (2 * M_PI)));
   EXPECT_FLOAT_EQ(Phong<true>(two).eval(up, up).g, static_cast<float>(5 / (2 * M_PI)));
 }
 
 TEST(Phong, NothingBelowTheSurfaceAndNothingOfBlack) {
-  const Material material = glossy(10), black = make_material({}, {}, 10, PhongNorm::n_plus_1);
+  const Material material = grey(0.3f, 0.5f, 10), black = make_material({}, {}, 10);
   const Vec3 up(0, 0, 1), down(0, 0, -1);
   EXPECT_EQ(Phong<true>(material).eval(up, down), Rgb{});
   EXPECT_EQ(Phong<true>(material).pdf(down, up).value, 0);
   EXPECT_FALSE(Phong<true>(black).sample(up, 0.5f, {0.5f, 0.5f}));
   EXPECT_FALSE(Phong<false>(black).sample(up, 0, {0.5f, 0.5f}));
-}
-
-TEST(Phong, ExtremeNumbersGiveFiniteSamples) {
-  constexpr float last = 1 - 0x1p-24f;
-  for (const float n : {0.0f, 1.0f, 1e6f}) {
-    const Material material = glossy(n);
-    const Phong<true> brdf(material);
-    for (const float choice : {0.0f, last}) {
-      for (const Vec2& u : {Vec2(0, 0), Vec2(last, 0), Vec2(0, last), Vec2(last, last)}) {
-        for (const double angle : {0.0, 45.0, 89.99}) {
-          const auto sample = brdf.sample(direction(angle), choice, u);
-          if (!sample) continue;
-          EXPECT_TRUE(is_finite(sample->wi));
-          EXPECT_NEAR(length(sample->wi), 1, 4 * 0x1p-23);
-          EXPECT_TRUE(std::isfinite(sample->pdf.value) && sample->pdf.value > 0);
-          EXPECT_TRUE(std::isfinite(sample->weight.g) && sample->weight.g >= 0);
-        }
-      }
-    }
-  }
 }
 
 }  // namespace

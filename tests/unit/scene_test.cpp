@@ -75,7 +75,7 @@ TEST_F(LoadScene, DescribesItself) {
 TEST_F(LoadScene, NormOfThePhongLobe) {
   load_mtl("newmtl wall\nKs 1 1 1\nNs 7\nnewmtl lamp\n");
   const LoadedScene one = load_scene(folder_.path());
-  const LoadedScene two = load_scene(folder_.path(), {.phong_norm = PhongNorm::n_plus_2});
+  const LoadedScene two = load_scene(folder_.path(), {.brdf = {.norm = PhongNorm::n_plus_2}});
   EXPECT_FLOAT_EQ(one.scene.materials[0].specular_factor, 8 / (2 * kPi));
   EXPECT_FLOAT_EQ(two.scene.materials[0].specular_factor, 9 / (2 * kPi));
 }
