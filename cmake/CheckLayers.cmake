@@ -12,7 +12,8 @@ set(wrapped
     "<OpenImageIO/" "^src/(render|shading)/"
     "<CLI/" "^src/app/"
     "<nlohmann/" "^src/app/"
-    "<boost/" "^src/oracle/exact\\.cpp$"
+    "<boost/math" "^src/measure/significance\\.cpp$"
+    "<boost/multiprecision" "^src/oracle/exact\\.cpp$"
     "<(tbb|oneapi)/" "^src/core/tbb_loop\\.cpp$")
 
 function(check_project_include file header)

@@ -19,11 +19,6 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
-bool holds_linear_floats(const fs::path& path) {
-  const std::string extension = lower_extension(path);
-  return extension == ".exr" || extension == ".hdr";
-}
-
 /// A writer into memory. Written straight to a file, some formats lose what does not fit on the disk without
 /// a word, and JPEG ends the program.
 std::unique_ptr<OIIO::ImageOutput> open_format(const fs::path& path) {
@@ -63,6 +58,11 @@ std::vector<unsigned char> encode(const fs::path& path, const Image& image, cons
 }
 
 }  // namespace
+
+bool holds_linear_floats(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".exr" || extension == ".hdr";
+}
 
 void check_writable(const fs::path& path) {
   (void)open_format(path);

@@ -14,6 +14,9 @@ namespace lemma {
 /// Names and values kept in an image file's header.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
+/// Whether files of this ending hold linear floats: EXR and HDR. All others hold values for the screen.
+[[nodiscard]] bool holds_linear_floats(const std::filesystem::path& path);
+
 /// Checks before a long rendering that the image could be written: the format is known by the name's ending
 /// and check_whole_file() passes.
 /// @throw FileError

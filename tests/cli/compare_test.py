@@ -1,0 +1,99 @@
+"""`lemma compare`: figures, difference images, verdicts, and what it refuses."""
+
+import json
+import unittest
+
+from lemma import DONE, LemmaTest, image_format, image_pixels
+
+COMPARISON_FAILED = 3
+FIGURES = ["rmse", "relmse", "trimmed-relmse", "smape", "flip"]
+
+
+class CompareTest(LemmaTest):
+    def compare(self, *arguments, expected=DONE):
+        run = self.lemma("compare", *arguments)
+        self.assertEqual((run.returncode, run.stderr), (expected, ""))
+        return run.stdout
+
+    def compare_json(self, *arguments, **options):
+        self.compare(*arguments, "-q", "--json", "compare.json", **options)
+        return json.loads((self.folder / "compare.json").read_text(encoding="utf-8"))
+
+
+class FigureTest(CompareTest):
+    def test_image_against_itself(self):
+        image = self.render_to("a.exr", spp=2)
+        figures = self.compare_json(image, image)
+        self.assertEqual([figures[name] for name in FIGURES], [0] * len(FIGURES))
+        self.assertEqual(figures["mean_difference"], [0, 0, 0])
+
+    def test_figures_are_those_of_the_pixels(self):
+        image, reference = self.render_to("a.exr", "--seed", 1), self.render_to("r.exr", "--seed", 2)
+        pairs = list(zip(sum(image_pixels(image), ()), sum(image_pixels(reference), ())))
+        figures = self.compare_json(image, reference)
+        self.assertAlmostEqual(figures["rmse"] ** 2, sum((i - r) ** 2 for i, r in pairs) / len(pairs), 5)
+        self.assertAlmostEqual(figures["relmse"], sum((i - r) ** 2 / (r * r + 0.01) for i, r in pairs) / len(pairs), 3)
+        self.assertGreater(figures["flip"], 0)
+
+    def test_text_shows_figures_and_pixels(self):
+        image, reference = self.render_to("a.exr", "--seed", 1), self.render_to("r.exr", "--seed", 2)
+        text = self.compare(image, reference, "--largest", 2)
+        for name in FIGURES:
+            self.assertRegex(text, rf"(?m)^{name} +[\d.e-]+$")
+        self.assertEqual(text.count("  pixel "), 2)
+
+    def test_pictures_are_compared_as_pictures(self):
+        self.render("-o", "a.png", "-o", "b.jpg", spp=4)
+        self.assertLess(self.compare_json("b.jpg", "a.png")["rmse"], 0.2)
+
+    def test_limits(self):
+        image, reference = self.render_to("a.exr", "--seed", 1), self.render_to("r.exr", "--seed", 2)
+        self.compare(image, reference, "--fail-above", "smape=2", "--fail-above", "flip=1")
+        text = self.compare(image, reference, "--fail-above", "smape=2", "--fail-above", "rmse=1e-9",
+                            expected=COMPARISON_FAILED)
+        self.assertTrue(text.endswith("rmse is above 1e-09\n"), text)
+
+
+class DifferenceImageTest(CompareTest):
+    def test_exr_holds_the_signed_difference(self):
+        image, reference = self.render_to("a.exr", "--seed", 1), self.render_to("r.exr", "--seed", 2)
+        self.compare(image, reference, "-o", "d.exr")
+        for i, r, d in zip(image_pixels(image), image_pixels(reference), image_pixels(self.folder / "d.exr")):
+            for c in range(3):
+                self.assertAlmostEqual(d[c], i[c] - r[c], 5)
+
+    def test_picture_is_white_where_nothing_differs(self):
+        image = self.render_to("a.exr")
+        self.compare(image, image, "-o", "d.png")
+        self.assertEqual(set(image_pixels(self.folder / "d.png")), {(255.0, 255.0, 255.0)})
+        self.assertEqual(image_format(self.folder / "d.png"), "uint8 png")
+
+
+class RefusalTest(CompareTest):
+    def test_what_cannot_be_compared(self):
+        image = self.render_to("a.exr")
+        other = self.render_to("b.exr", size="8x8")
+        self.render_to("a.png")
+        self.write("notes.txt", "no image")
+        self.assert_refused(["compare", image, other],
+                            f"{image}: error: 16x12 pixels cannot be compared with the 8x8 of {other}\n"
+                            "  hint: compare images of the same size; lemma render takes --size")
+        self.assert_refused(["compare", "a.exr", "a.png"],
+                            "a.exr: error: radiance cannot be compared with the picture of a.png\n"
+                            "  hint: compare two .exr files, or two pictures")
+        self.assert_refused(["compare", "a.exr", "none.exr"], "none.exr: error: no such file\n  hint: check the name")
+        self.assert_refused(["compare", ".", "a.exr"], ".: error: this is a folder\n  hint: name an image file")
+        run = self.lemma("compare", "notes.txt", "a.exr")
+        self.assertRegex(run.stderr, r"\Anotes\.txt: error: no image can be read from it: .*\n  hint: name an image as ")
+
+    def test_options(self):
+        hint = "expected NAME=X with X at least 0 and NAME one of: rmse, relmse, trimmed-relmse, smape, flip"
+        for value in ("0.1", "rmse", "rmse=", "rmse=-1", "psnr=1", "rmse=nan"):
+            self.assert_refused(["compare", "a.exr", "b.exr", "--fail-above", value],
+                                f'lemma: error: --fail-above: invalid value "{value}"\n  hint: {hint}')
+        self.assert_refused(["compare", "a.exr"],
+                            "lemma: error: REFERENCE: missing value\n  hint: expected an image file")
+
+
+if __name__ == "__main__":
+    unittest.main()
