@@ -17,6 +17,11 @@ struct Triangle {
   return cross(Vec3d(t.v1) - v0, Vec3d(t.v2) - v0);
 }
 
+/// Six times the signed volume that x spans with the triangle: positive on the side of its normal.
+[[nodiscard]] inline double side_of(const Triangle& t, const Vec3& x) {
+  return dot(Vec3d(x) - Vec3d(t.v0), area_vector(t));
+}
+
 [[nodiscard]] inline double area(const Triangle& t) {
   return 0.5 * length(area_vector(t));
 }

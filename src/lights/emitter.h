@@ -19,7 +19,7 @@ struct Emitter {
 /// Whether x lies strictly on the emitting side. Light sampling and emission at a hit both ask this one
 /// function, so that they never disagree about a point near the plane.
 [[nodiscard]] inline bool emits_towards(const Emitter& e, const Vec3& x) {
-  return dot(Vec3d(x) - Vec3d(e.shape.v0), area_vector(e.shape)) > 0;
+  return side_of(e.shape, x) > 0;
 }
 
 }  // namespace lemma

@@ -1,45 +1,38 @@
 #pragma once
 
-#include <array>
-#include <span>
-#include <vector>
-
-#include "src/core/vec.h"
-#include "src/lights/emitter.h"
+#include "src/lights/light_sampler.h"
+#include "src/lights/weigh_emitters.h"
 
 namespace lemma {
 
-/// Weights of all emitters as seen from a point: luminance x solid angle of those that emit towards it, in
-/// float32. They serve as probabilities only, so their error makes no bias; sampling and density use the same
+/// A choice among all emitters with probability ~ their weight as seen from a point. Weights are in float32
+/// and serve as probabilities only, so their error makes no bias; choice and probability use the same
 /// function and see the same bits.
 class EmitterWeights {
  public:
-  explicit EmitterWeights(std::span<const Emitter> emitters);
+  enum class Measure { solid_angle, projected_solid_angle };  // which is multiplied by luminance
 
-  /// Weight of one emitter.
-  [[nodiscard]] float weight(const Vec3& x, std::size_t emitter) const;
+  EmitterWeights(std::span<const Emitter> emitters, Measure measure);
 
-  /// Sum over all emitters.
-  [[nodiscard]] double total(const Vec3& x) const;
+  /// The query with the sums that the choice and its probability need.
+  [[nodiscard]] LightQuery query(const Vec3& x, const Vec3& n) const;
 
-  /// The emitter at which the running sum of weights passes `target`, in [0, total(x)); never one of weight 0
-  /// while any is above.
-  [[nodiscard]] std::size_t find(const Vec3& x, double target) const;
+  struct Choice {
+    std::uint32_t emitter;
+    double pmf;
+  };
+
+  /// Draws an emitter for u uniform in [0, 1); nothing if all weights are 0. Never one of weight 0.
+  [[nodiscard]] std::optional<Choice> choose(const LightQuery& at, double u) const;
+
+  /// The probability that choose() returns the emitter.
+  [[nodiscard]] double pmf(const LightQuery& at, std::uint32_t emitter) const;
 
  private:
-  static constexpr std::size_t kBlock = 64;
+  [[nodiscard]] EmitterBlock::Values weigh(std::size_t block, const LightQuery& at) const;
 
-  /// Some emitters, as structure of arrays, so that the compiler works on several at a time. Places left over
-  /// hold emitters of luminance 0.
-  struct Block {
-    std::array<float, kBlock> v0_x{}, v0_y{}, v0_z{}, v1_x{}, v1_y{}, v1_z{}, v2_x{}, v2_y{}, v2_z{};
-    std::array<float, kBlock> normal_x{}, normal_y{}, normal_z{};  // area vector
-    std::array<float, kBlock> luminance{};
-  };
-  static float weigh(const Block& block, const Vec3& x, std::size_t i);
-  static std::array<float, kBlock> weigh_all(const Block& block, const Vec3& x);
-
-  std::vector<Block> blocks_;
+  std::vector<EmitterBlock> blocks_;
+  WeighEmitters::Function weigh_;
 };
 
 }  // namespace lemma

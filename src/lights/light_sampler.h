@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "src/core/named.h"
 #include "src/core/pdf.h"
@@ -24,8 +25,10 @@ struct LightSample {
 /// What a strategy needs to know about a reference point for both sampling and density: found once a point.
 struct LightQuery {
   Vec3 x;
-  Vec3 n;                   // unit shading normal: light from below its horizon is not reflected
-  double total_weight = 0;  // of all emitters as seen from x, where the strategy weighs them so; else unused
+  Vec3 n;  // unit shading normal: light from below its horizon is not reflected
+  // Sums of the emitters' weights up to each block of them (emitter_weights.h), where the strategy weighs
+  // them so; else empty.
+  std::vector<double> running_weights = {};
 };
 
 /// Chooses points on emitters. The technique is: choose a light (an emitter, or emitters that are sampled as

@@ -3,9 +3,7 @@
 #include "src/core/warp.h"
 
 namespace lemma {
-namespace {
 
-/// Where the direction w from x meets the triangle, moved onto it where rounding led past its edge.
 Vec3d point_seen(const Triangle& t, const Vec3& x, const Vec3d& w) {
   const Vec3d v0(t.v0), e1 = Vec3d(t.v1) - v0, e2 = Vec3d(t.v2) - v0, s = Vec3d(x) - v0;
   const Vec3d p = cross(w, e2), q = cross(s, e1);
@@ -14,8 +12,6 @@ Vec3d point_seen(const Triangle& t, const Vec3& x, const Vec3d& w) {
   const double b2 = std::clamp(dot(w, q) / determinant, 0.0, 1.0 - b1);
   return point_at(t, b1, b2);
 }
-
-}  // namespace
 
 Vec3d sample_triangle(const Triangle& triangle, const SphericalTriangle& seen, const Vec3& x, const Vec2& u) {
   if (seen.can_be_sampled()) return point_seen(triangle, x, seen.sample(u));

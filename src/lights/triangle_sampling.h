@@ -5,6 +5,9 @@
 
 namespace lemma {
 
+/// Where the direction w from x meets the triangle, moved onto it where rounding led past its edge.
+[[nodiscard]] Vec3d point_seen(const Triangle& triangle, const Vec3& x, const Vec3d& w);
+
 /// The point of an emitter that a direction uniform over the triangle's solid angle as `seen` from x leads
 /// to; a triangle too small on the sphere for that is sampled uniformly by area.
 /// @param u  uniform in [0,1)^2

@@ -38,7 +38,7 @@ class HelpTest(LemmaTest):
         self.assertLessEqual({"embree", "grid", "brute"}, set(choices("--accel")))
         self.assertLessEqual({"mis", "direct", "brdf"}, set(choices("--integrator")))
         self.assertEqual(choices("--lights")[0], "tree")
-        self.assertLessEqual({"tree", "power", "solid-angle", "radiance-area"}, set(choices("--lights")))
+        self.assertLessEqual({"tree", "power", "solid-angle", "projected", "radiance-area"}, set(choices("--lights")))
         self.assertLessEqual({"throughput", "fixed"}, set(choices("--rr")))
 
     def test_help_tells_the_defaults(self):

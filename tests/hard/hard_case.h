@@ -13,7 +13,7 @@ namespace lemma::test {
 
 /// What a backend made of a case.
 struct Outcome {
-  std::size_t rays = 0;
+  std::size_t rays = 0;    // or other things tried
   std::size_t faults = 0;  // answers that cannot be; what that is the case says
 };
 
@@ -29,6 +29,8 @@ struct HardCase {
 
 [[nodiscard]] std::span<const HardCase> mesh_cases();
 [[nodiscard]] std::span<const HardCase> surface_cases();
+/// Without accelerators: run once, as the backend "-".
+[[nodiscard]] std::span<const HardCase> sampling_cases();
 
 [[nodiscard]] std::unique_ptr<const Accelerator> make_backend(std::string_view name,
                                                               std::span<const Triangle> triangles);

@@ -21,7 +21,7 @@ class Table : public testing::Environment {
   static void add(const Row& row) { rows().push_back(row); }
 
   void TearDown() override {
-    std::printf("%-40s%-9s%-22s%8s%8s%9s\n", "case", "backend", "expected", "rays", "faults", "allowed");
+    std::printf("%-40s%-9s%-22s%8s%8s%9s\n", "case", "backend", "expected", "tried", "faults", "allowed");
     for (const Row& row : rows()) {
       std::printf("%-40s%-9s%-22s%8zu%8zu%9s\n", row.hard_case.name.data(), row.backend.data(),
                   row.hard_case.expected.data(), row.outcome.rays, row.outcome.faults,
@@ -59,6 +59,9 @@ INSTANTIATE_TEST_SUITE_P(Mesh, Hard,
 INSTANTIATE_TEST_SUITE_P(Surface, Hard,
                          testing::Combine(testing::ValuesIn(surface_cases().begin(), surface_cases().end()),
                                           testing::ValuesIn(kBackends)));
+INSTANTIATE_TEST_SUITE_P(Sampling, Hard,
+                         testing::Combine(testing::ValuesIn(sampling_cases().begin(), sampling_cases().end()),
+                                          testing::Values(std::string_view("-"))));
 
 }  // namespace
 }  // namespace lemma::test

@@ -38,6 +38,29 @@ double t_limit(double false_alarm, int tests, double freedom) {
       boost::math::complement(boost::math::students_t(freedom), tail(false_alarm, tests)));
 }
 
+double chi_square_test(std::span<const double> counts, std::span<const double> shares) {
+  double draws = 0;
+  for (const double c : counts) draws += c;
+  double statistic = 0, rare_count = 0, rare_expected = 0;
+  int cells = 0;
+  const auto compare = [&](double count, double expected) {
+    statistic += (count - expected) * (count - expected) / expected;
+    ++cells;
+  };
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double expected = draws * shares[i];
+    if (expected >= 5) {
+      compare(counts[i], expected);
+    } else {
+      rare_count += counts[i], rare_expected += expected;
+    }
+  }
+  // What is too rare even together may not be there at all, but for a chance below e^-40.
+  if (rare_expected >= 5) compare(rare_count, rare_expected);
+  if (rare_expected < 5 && rare_count > 60) return 0;
+  return cells > 1 ? chi_square_tail(statistic, cells - 1) : 1;
+}
+
 double chi_square_tail(double value, double freedom) {
   return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), value));
 }

@@ -27,4 +27,8 @@ struct Estimate {
 /// Probability that a chi-square variable with `freedom` degrees of freedom exceeds `value`.
 [[nodiscard]] double chi_square_tail(double value, double freedom);
 
+/// Tail probability of the counts of independent draws that should fall into cells by these shares. Cells
+/// with fewer than 5 expected are put together.
+[[nodiscard]] double chi_square_test(std::span<const double> counts, std::span<const double> shares);
+
 }  // namespace lemma::test

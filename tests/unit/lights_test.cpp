@@ -4,7 +4,6 @@
 #include <map>
 
 #include "src/core/warp.h"
-#include "src/lights/emitter_weights.h"
 #include "src/lights/light_sampler.h"
 #include "src/lights/spherical_triangle.h"
 #include "tests/support/lights.h"
@@ -62,7 +61,7 @@ TEST_P(EveryStrategy, EstimatesTheIrradianceOfUnoccludedTriangles) {
   }
   const test::Estimate estimate = test::estimate(values);
   // False alarms: one in 10^4 for the strategies together.
-  EXPECT_LT(std::abs(estimate.mean - reference) / estimate.standard_error, test::z_limit(1e-4, 4))
+  EXPECT_LT(std::abs(estimate.mean - reference) / estimate.standard_error, test::z_limit(1e-4, 5))
       << estimate.mean << " +- " << estimate.standard_error << ", expected " << reference;
 }
 
@@ -78,7 +77,7 @@ TEST_P(EveryStrategy, NothingFromBehindAndNothingInThePlane) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, EveryStrategy,
-                         testing::Values("tree", "radiance-area", "power", "solid-angle"),
+                         testing::Values("tree", "radiance-area", "power", "solid-angle", "projected"),
                          [](const auto& name) {
                            std::string id(name.param);
                            std::ranges::replace(id, '-', '_');
@@ -151,41 +150,10 @@ TEST(SphericalTriangle, SamplesAreInsideAndHaveTheRightMean) {
 
 TEST(SphericalTriangle, CoversNothingSeenFromItsPlane) {
   const Triangle t{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  const Emitter emitter{t, {1, 1, 1}, 0, 0};
   for (const Vec3& x : {Vec3(0, 0, 0), Vec3(0.5f, 0.5f, 0), Vec3(0.2f, 0.2f, 0), Vec3(3, 0, 0)}) {
     EXPECT_EQ(SphericalTriangle(t, x).solid_angle(), 0);
     EXPECT_FALSE(SphericalTriangle(t, x).can_be_sampled());
-    EXPECT_EQ(EmitterWeights({&emitter, 1}).weight(x, 0), 0);
   }
-}
-
-TEST(EmitterWeights, AreLuminanceTimesSolidAngle) {
-  const auto emitters = two_spheres();
-  const EmitterWeights weights(emitters);
-  const Vec3 x(0.3f, 0, -0.2f);
-  double sum = 0;
-  for (std::size_t i = 0; i < emitters.size(); ++i) {
-    const double expected =
-        emits_towards(emitters[i], x)
-            ? luminance(emitters[i].radiance) * SphericalTriangle(emitters[i].shape, x).solid_angle()
-            : 0.0;
-    sum += weights.weight(x, i);
-    // The edge form in float32: 4e-7 at most for well-shaped triangles seen at a cosine near 1; the numerator
-    // cancels as 1 / cosine, here down to 0.02.
-    EXPECT_NEAR(weights.weight(x, i), expected,
-                2e-5 * expected + 1e-6 * luminance(emitters[i].radiance) * 1e-2)
-        << i;
-  }
-  // A block is summed in float32 in 8 chains of 8: 8 roundings.
-  EXPECT_NEAR(weights.total(x), sum, 8 * 0x1p-24 * sum);
-}
-
-TEST(EmitterWeights, FindNeverReturnsOneOfNoWeight) {
-  const auto emitters = two_spheres();
-  const EmitterWeights weights(emitters);
-  const Vec3 x(0.3f, 0, -0.2f);
-  const double total = weights.total(x);
-  for (int i = 0; i <= 1000; ++i) EXPECT_GT(weights.weight(x, weights.find(x, total * i / 1000)), 0);
 }
 
 }  // namespace
