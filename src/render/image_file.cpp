@@ -24,6 +24,7 @@ std::string lower_extension(const fs::path& path) {
 std::unique_ptr<OIIO::ImageOutput> open_format(const fs::path& path) {
   auto output = OIIO::ImageOutput::create(path.string());
   if (!output || output->supports("ioproxy") == 0) {
+    (void)OIIO::geterror();  // left there, some versions print it when the program ends
     throw FileError(fmt::format(
         "{}: error: no image format for the ending \"{}\"\n  hint: use .exr for linear radiance, or "
         ".png, .jpg, .tif ... for a picture",
