@@ -7,7 +7,6 @@ cmake_minimum_required(VERSION 3.25)
 set(wrapped
     "<embree[34]/" "^accel/embree_[a-z]+\\.(h|cpp)$"
     "<hwy/" "^(accel/grid_trace|src/lights/weigh_emitters)\\.cpp$"
-    "<tiny_obj_loader" "^src/scene/"
     "<pugixml" "^src/scene/"
     "<OpenImageIO/" "^src/(render|shading)/"
     "<CLI/" "^src/app/"

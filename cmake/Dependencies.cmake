@@ -12,7 +12,6 @@ endfunction()
 lemma_require(Imath libimath-dev CONFIG)
 lemma_require(TBB libtbb-dev CONFIG)
 lemma_require(Boost libboost-dev CONFIG)
-lemma_require(tinyobjloader libtinyobjloader-dev CONFIG)
 lemma_require(pugixml libpugixml-dev CONFIG)
 lemma_require(OpenEXR libopenexr-dev CONFIG) # OpenImageIO's own configuration needs it but does not look for it
 lemma_require(OpenImageIO "libopenimageio-dev openimageio-tools" CONFIG) # its configuration checks for the tools

@@ -72,14 +72,6 @@ void add_transport_options(CLI::App& app, RenderOptions& o) {
       app, "--max-depth", o.integrator_options.max_depth, 0, IntegratorOptions::kLastResortDepth,
       "Scattering events on a path at most; 1 is direct light. Paths cut are counted: they make a bias");
   add_choice(
-      app, "--brdf", lobes(), [&o](auto& entry) { o.load.brdf.lobe = entry.value; }, "The specular lobe");
-  add_choice(
-      app, "--phong-norm", phong_norms(), [&o](auto& entry) { o.load.brdf.norm = entry.value; },
-      "Factor of the Phong lobe");
-  add_choice(
-      app, "--brdf-sampling", lobe_samplings(), [&o](auto& entry) { o.load.brdf.sampling = entry.value; },
-      "Directions of the Phong lobe that are drawn");
-  add_choice(
       app, "--emitters", std::span<const Named<bool>>(emitters),
       [&o](auto& entry) { o.integrator_options.emitters_reflect = entry.value; },
       "What emitters do besides emitting");
@@ -131,13 +123,7 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
 
 CLI::App* add_render_command(CLI::App& app, RenderOptions& o) {
   CLI::App* render = app.add_subcommand("render", "Render a scene to image files");
-  add_file(*render,
-           {.flag = "SCENE",
-            .type = "PATH",
-            .expected = "an XML file, an OBJ file, or the folder that holds both",
-            .help = "The XML file, the OBJ file, or the folder that holds both"},
-           [&o](const auto& path) { o.scene = path; })
-      ->required();
+  add_scene_options(*render, o.scene);
   add_output_options(*render, o);
   add_accelerator_options(*render, o);
   add_transport_options(*render, o);

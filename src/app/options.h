@@ -8,9 +8,9 @@
 
 #include "accel/accelerator.h"
 #include "integrators/integrator.h"
+#include "src/app/scene_options.h"
 #include "src/render/render.h"
 #include "src/render/tone_map.h"
-#include "src/scene/load_scene.h"
 
 namespace CLI {
 class App;
@@ -22,7 +22,7 @@ enum class ProgressStyle { automatic, bar, plain, off };
 
 /// Everything `lemma render` can be told.
 struct RenderOptions {
-  std::filesystem::path scene;
+  SceneOptions scene;
   std::vector<std::filesystem::path> outputs;
   std::filesystem::path stats;  // empty: none
   Named<AcceleratorFactory> accel = accelerators().front();
@@ -30,7 +30,6 @@ struct RenderOptions {
   Named<IntegratorFactory> integrator = integrators().front();
   IntegratorOptions integrator_options;
   Named<LightSamplerFactory> lights = light_samplers().front();
-  LoadOptions load;
   RenderSettings settings;
   std::optional<std::pair<int, int>> size;  // width, height in place of the scene's
   int threads = 0;                          // 0: all

@@ -5,8 +5,10 @@
 #include <chrono>
 #include <tuple>
 
+#include "src/app/argument_error.h"
 #include "src/app/progress.h"
 #include "src/app/summary.h"
+#include "src/core/machine.h"
 #include "src/core/parallel.h"
 #include "src/render/image_file.h"
 #include "src/render/whole_file.h"
@@ -27,27 +29,40 @@ void check_outputs(const RenderOptions& options) {
   if (!options.stats.empty()) check_whole_file(options.stats);
 }
 
+/// Memory of a pixel while an image is rendered and encoded: colours as float, as written, and once more in
+/// the encoder [bytes].
+constexpr std::uint64_t kBytesAPixel = 48;
+
+/// Refuses images that the machine cannot hold, before memory is taken for them.
+void require_memory(const CameraView& view) {
+  const std::uint64_t needed =
+      kBytesAPixel * static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height);
+  if (needed <= machine_memory()) return;
+  throw ArgumentError(
+      fmt::format("an image of {}x{} needs {:.0f} GB of memory; there are {:.0f} GB", view.width, view.height,
+                  static_cast<double>(needed) / 1e9, static_cast<double>(machine_memory()) / 1e9),
+      "choose a smaller one with --size");
+}
+
 LoadedScene load(const RenderOptions& options) {
-  LoadedScene loaded = load_scene(options.scene, options.load);
+  LoadedScene loaded = load_scene(options.scene.scene, options.scene.load);
   if (options.size) std::tie(loaded.scene.view.width, loaded.scene.view.height) = *options.size;
-  if (options.quiet) return loaded;
-  fmt::print(stderr, "{}\n", describe(loaded));
-  for (const std::string& warning : loaded.report.warnings) fmt::print(stderr, "{}\n", warning);
+  require_memory(loaded.scene.view);
+  if (!options.quiet) fmt::print(stderr, "{}\n", describe(loaded));
+  if (!options.quiet || options.scene.strict) report_warnings(loaded.report.warnings, options.scene.strict);
   return loaded;
 }
 
 /// The options that the image depends on, as a command line would say them.
 std::string image_options(const RenderOptions& o, const CameraView& view) {
   const IntegratorOptions& i = o.integrator_options;
-  const BrdfOptions& b = o.load.brdf;
   return fmt::format(
-      "--accel {} --integrator {} --lights {} --mis {} --technique {} --rr {} --max-depth {} --brdf {} "
-      "--phong-norm {} --brdf-sampling {} --emitters {} --sampler {} --spp {} --seed {} --size {}x{}",
+      "--accel {} --integrator {} --lights {} --mis {} --technique {} --rr {} --max-depth {} {} "
+      "--emitters {} --sampler {} --spp {} --seed {} --size {}x{}",
       o.accel.name, o.integrator.name, o.lights.name, name_of(heuristics(), i.heuristic),
       name_of(counted_samples(), i.counted_samples), name_of(roulettes(), i.roulette), i.max_depth,
-      name_of(lobes(), b.lobe), name_of(phong_norms(), b.norm), name_of(lobe_samplings(), b.sampling),
-      i.emitters_reflect ? "reflect" : "absorb", name_of(sequences(), o.settings.sequence), o.settings.spp,
-      o.settings.seed, view.width, view.height);
+      text_of(o.scene.load), i.emitters_reflect ? "reflect" : "absorb",
+      name_of(sequences(), o.settings.sequence), o.settings.spp, o.settings.seed, view.width, view.height);
 }
 
 /// Nothing of it depends on when, where, or on how many threads the image was made: same input, same bytes.
@@ -55,7 +70,7 @@ Metadata image_metadata(const RenderOptions& options, const CameraView& view) {
   return {{"Software", "Lemma " LEMMA_VERSION},
           {"DateTime", ""},  // else OpenImageIO puts the time there
           {"lemma:version", LEMMA_VERSION},
-          {"lemma:scene", options.scene.string()},
+          {"lemma:scene", options.scene.scene.string()},
           {"lemma:options", image_options(options, view)},
           {"lemma:spp", fmt::format("{}", options.settings.spp)},
           {"lemma:seed", fmt::format("{}", options.settings.seed)}};

@@ -50,7 +50,7 @@ std::string summary_json(const RenderOptions& options, const RunFigures& figures
                          const RenderResult& result) {
   const nlohmann::ordered_json json = {
       {"version", LEMMA_VERSION},
-      {"scene", options.scene.string()},
+      {"scene", options.scene.scene.string()},
       {"model", figures.model},
       {"accel", options.accel.name},
       {"accel_description", figures.accelerator},

@@ -14,7 +14,7 @@ constexpr double kFlatDistance = 2e-4;
 
 /// Unit normal that the file gives a corner; 0 if none, or none that has a direction.
 Vec3d given_normal(const ObjFile& obj, std::uint32_t index) {
-  if (index == kNoNormal) return Vec3d(0);
+  if (index == kNoIndex) return Vec3d(0);
   const Vec3 normal = obj.normals[index];
   if (!is_finite(normal) || normal == Vec3(0)) return Vec3d(0);
   return normalize(Vec3d(normal));

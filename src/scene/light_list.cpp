@@ -29,16 +29,42 @@ void add_light(const MaterialLight& light, LightList& list) {
   list.lights.push_back(light);
 }
 
-/// Whether a material without light looks as if it were meant to be one: by its name, or by an ambient colour
-/// that no reflectance can have (in some scenes of the course Ka is the radiance).
+/// Whether Ka can be meant as a radiance: no reflectance is above 1.
+bool is_radiant_ka(const MtlMaterial& m) {
+  return max_channel(m.ka) > 1;
+}
+
+bool is_named_light(const MtlMaterial& m) {
+  return lower_case(m.name).find("light") != std::string::npos;
+}
+
+/// The light that a material makes by itself; one of radiance 0 if it makes none.
+MaterialLight own_light(const MtlMaterial& m, std::uint32_t index, EmissionRule rule) {
+  if (!is_black(m.ke)) return {index, m.ke, m.where, "Ke"};
+  if (rule != EmissionRule::declared && is_radiant_ka(m)) return {index, m.ka, m.where, "Ka"};
+  if (rule == EmissionRule::name && is_named_light(m)) return {index, {1, 1, 1}, m.where, "name"};
+  return {index, {}, m.where, ""};
+}
+
+/// Whether a material without light looks as if it were meant to be one: by its name, or by a Ka
+/// that is one (in some scenes of the course).
 bool looks_like_light(const MtlMaterial& m) {
-  return lower_case(m.name).find("light") != std::string::npos || max_channel(m.ka) > 1 ||
-         max_channel(m.ke) > 0;
+  return is_named_light(m) || is_radiant_ka(m) || max_channel(m.ke) > 0;
 }
 
 }  // namespace
 
-LightList find_lights(const XmlScene& xml, const std::vector<MtlMaterial>& materials, Warnings& warnings) {
+std::span<const Named<EmissionRule>> emission_rules() {
+  static constexpr Named<EmissionRule> table[] = {
+      {"declared", EmissionRule::declared, "materials that the XML names as lights, and others with Ke"},
+      {"ka", EmissionRule::ka,
+       "these, and others with a Ka above 1: it is their radiance (a dialect of 2019)"},
+      {"name", EmissionRule::name, "these, and others whose name holds \"light\", with radiance 1"}};
+  return table;
+}
+
+LightList find_lights(const XmlScene& xml, const std::vector<MtlMaterial>& materials, EmissionRule rule,
+                      Warnings& warnings) {
   LightList list;
   list.of_material.assign(materials.size(), kNoLight);
   std::unordered_map<std::string, std::uint32_t> index;
@@ -62,11 +88,17 @@ LightList find_lights(const XmlScene& xml, const std::vector<MtlMaterial>& mater
       warn(warnings, light.where,
            fmt::format("light {} has radiance 0 and reflects instead", in_quotes(m.name)));
     } else {
-      add_light({material->second, light.radiance, light.where}, list);
+      add_light({material->second, light.radiance, light.where, "XML"}, list);
     }
   }
   for (std::uint32_t i = 0; i < materials.size(); ++i) {
-    if (!in_xml[i] && !is_black(materials[i].ke)) add_light({i, materials[i].ke, materials[i].where}, list);
+    const MaterialLight light = own_light(materials[i], i, rule);
+    if (in_xml[i] || is_black(light.radiance)) continue;
+    add_light(light, list);
+    if (light.source == "Ke") continue;
+    warn(warnings, light.where,
+         fmt::format("{} emits {} by its {}", in_quotes(materials[i].name), describe(light.radiance),
+                     light.source));
   }
   return list;
 }
@@ -92,14 +124,20 @@ void number_lights(const LightList& list, const std::vector<MtlMaterial>& materi
 SceneError no_emitters(const FilePosition& where, const std::vector<MtlMaterial>& materials,
                        const std::vector<bool>& has_faces) {
   std::vector<std::string> candidates;
+  bool by_ka = false;
   for (std::size_t i = 0; i < materials.size(); ++i) {
     if (!has_faces[i] || !looks_like_light(materials[i])) continue;
+    by_ka |= is_radiant_ka(materials[i]);
     candidates.push_back(fmt::format("{} (Ka {})", in_quotes(materials[i].name), describe(materials[i].ka)));
   }
   const std::string example = fmt::format("write {} into the XML", kLightExample);
+  if (candidates.empty()) {
+    return {where, "no emitters found: the image would be black",
+            fmt::format("{}, with the name of a material", example)};
+  }
   return {where, "no emitters found: the image would be black",
-          candidates.empty() ? fmt::format("{}, with the name of a material", example)
-                             : fmt::format("candidates: {}; {}", join_names(candidates), example)};
+          fmt::format("candidates: {}; {}, or let --emission {} take what looks like a light",
+                      join_names(candidates), example, by_ka ? "ka" : "name")};
 }
 
 }  // namespace lemma

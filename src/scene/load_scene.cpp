@@ -8,6 +8,7 @@
 #include "src/scene/read_obj.h"
 #include "src/scene/read_xml.h"
 #include "src/scene/scene_files.h"
+#include "src/scene/spheres.h"
 
 namespace lemma {
 namespace {
@@ -37,10 +38,12 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   report.xml = files.xml;
   report.obj = files.obj;
   const XmlScene xml = read_xml(files.xml, report.warnings);
-  const ObjFile obj = read_obj(files.obj, report.warnings);
+  report.dialect = xml.dialect;
+  ObjFile obj = read_obj(files.obj, report.warnings);
+  add_spheres(xml.spheres, obj);
   report.mtl = find_mtl_files(files.obj, obj.libraries, report.warnings);
   const MaterialTable table = read_materials(report.mtl, obj.materials, report.warnings);
-  const LightList lights = find_lights(xml, table.materials, report.warnings);
+  const LightList lights = find_lights(xml, table.materials, options.emission, report.warnings);
 
   scene.view = xml.view;
   build_geometry(obj, table, lights, scene, report);

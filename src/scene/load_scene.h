@@ -1,20 +1,33 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "src/core/named.h"
 #include "src/scene/scene.h"
 
 namespace lemma {
 
+/// What makes the faces of a material emit.
+enum class EmissionRule {
+  declared,  // a <light> of the XML, else Ke
+  ka,        // as declared; of the rest Ka, where it is above 1 in some channel (a dialect of 2019)
+  name       // as ka; the rest emits 1 1 1 if its name holds "light"
+};
+
+[[nodiscard]] std::span<const Named<EmissionRule>> emission_rules();
+
 struct LoadOptions {
   BrdfOptions brdf;
+  EmissionRule emission = EmissionRule::declared;
 };
 
 /// What was read and what became of it.
 struct LoadReport {
   std::filesystem::path xml, obj;
+  std::string dialect;  // of the XML
   std::vector<std::filesystem::path> mtl;
   std::size_t triangles_read = 0;      // polygons as fans
   std::size_t dropped_zero_area = 0;   // triangles whose area is exactly 0

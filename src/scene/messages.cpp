@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "src/scene/utf8.h"
+
 namespace lemma {
 
 void warn(Warnings& warnings, const FilePosition& where, std::string_view what) {
@@ -12,10 +14,14 @@ void warn(Warnings& warnings, const FilePosition& where, std::string_view what) 
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
-  std::string shown(text.substr(0, kLongest));
+  std::size_t end = std::min(kLongest, text.size());
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; };
+  while (end < text.size() && end > 0 && continues(text[end])) --end;  // not within a character
+  std::string shown(text.substr(0, end));
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
   std::replace_if(shown.begin(), shown.end(), is_control, ' ');
-  return fmt::format("\"{}{}\"", shown, text.size() > kLongest ? "..." : "");
+  while (const auto bad = find_invalid_utf8(shown)) shown[*bad] = '?';
+  return fmt::format("\"{}{}\"", shown, end < text.size() ? "..." : "");
 }
 
 std::string join_names(const std::vector<std::string>& names) {

@@ -1,78 +1,72 @@
 #include "src/scene/obj_lines.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace lemma {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
 
-/// Cuts the first line off `text`, without its end.
-std::string_view take_line(std::string_view& text) {
-  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
-  text.remove_prefix(line.size());
-  text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text.size()));
-  return line;
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
 }
 
 std::string_view trim(std::string_view line) {
-  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-  return line.substr(0, line.find_last_not_of(kBlanks) + 1);
+  while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+  return line;
 }
 
 bool is_face(std::string_view line) {
-  return line.starts_with("f ") || line.starts_with("f\t");
+  return line.size() > 1 && line[0] == 'f' && is_blank(line[1]);
 }
 
 /// @param face  whether the line belongs to a face, where no '#' can be part of a name
 std::string_view without_comment(std::string_view line, bool face) {
   for (std::size_t at = line.find('#'); at != line.npos; at = line.find('#', at + 1)) {
-    if (at == 0 || face || kBlanks.find(line[at - 1]) != kBlanks.npos) return trim(line.substr(0, at));
+    if (at == 0 || face || is_blank(line[at - 1])) return trim(line.substr(0, at));
   }
   return line;
 }
 
-void append_plain(std::string& out, std::string_view line) {
-  const std::size_t keyword = std::min(line.find_first_of(kBlanks), line.size());
-  out.append(line.substr(0, keyword));
-  if (keyword < line.size()) out.append(1, ' ').append(trim(line.substr(keyword)));
-}
-
 }  // namespace
 
-std::string plain_lines(std::string_view text) {
-  std::string out, joined;
-  out.reserve(text.size() + 1);
-  std::size_t continued = 0;
-  while (!text.empty()) {
-    std::string_view line = trim(take_line(text));
-    line = without_comment(line, is_face(continued > 0 ? joined : line));
-    const bool goes_on = line.ends_with('\\');
-    if (goes_on) line.remove_suffix(1);
-    if (goes_on || continued > 0) {
-      joined.append(line).append(1, ' ');
-      line = trim(joined);
+std::string_view LineCursor::take_line() {
+  if (taken_ < std::numeric_limits<int>::max()) ++taken_;
+  std::string_view line = rest_.substr(0, rest_.find('\n'));
+  rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
+  if (const std::size_t cr = line.find('\r'); cr != line.npos) {
+    const std::size_t after = line.size() - cr - 1;
+    if (after > 0) {  // what follows is a line of its own
+      const char* const next = line.data() + cr + 1;
+      rest_ = {next, static_cast<std::size_t>(rest_.data() + rest_.size() - next)};
     }
-    if (goes_on && !text.empty()) {
-      ++continued;
-      continue;
-    }
-    append_plain(out, line);
-    out.append(1 + continued, '\n');
-    joined.clear();
-    continued = 0;
+    line = line.substr(0, cr);
   }
-  return out;
+  return trim(line);
+}
+
+/// A line that ends in a backslash, and those that it goes on in.
+std::string_view LineCursor::take_joined(std::string_view first) {
+  joined_.clear();
+  std::string_view line = first;
+  while (line.ends_with('\\')) {
+    joined_.append(line.substr(0, line.size() - 1)).append(1, ' ');
+    line = without_comment(take_line(), is_face(joined_));
+  }
+  return trim(joined_.append(line));
 }
 
 std::optional<ObjLine> LineCursor::next() {
   while (!rest_.empty()) {
-    const std::string_view line = rest_.substr(0, rest_.find('\n'));
-    rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
-    ++number_;
+    std::string_view line = take_line();
+    const int number = taken_;
+    line = without_comment(line, is_face(line));
+    if (line.ends_with('\\')) line = take_joined(line);
     if (line.empty()) continue;
-    const std::size_t keyword = std::min(line.find(' '), line.size());
-    return ObjLine{line.substr(0, keyword), line.substr(std::min(keyword + 1, line.size())), number_};
+    const std::size_t keyword = std::min(line.find_first_of(kBlanks), line.size());
+    return ObjLine{line.substr(0, keyword), trim(line.substr(keyword)), number};
   }
   return std::nullopt;
 }

@@ -1,7 +1,6 @@
 #include "src/scene/read_mtl.h"
 
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include "src/scene/numbers.h"
 #include "src/scene/obj_lines.h"
 #include "src/scene/text_file.h"
+#include "src/scene/texture_name.h"
 
 namespace lemma {
 namespace {
@@ -29,23 +29,13 @@ constexpr std::array<ColourKey, 4> kColours{{
     {"Ke", &MtlMaterial::ke},
 }};
 
-/// The file name of a texture line. The library takes a name behind an option with optional numbers (-o 0.1
-/// a.jpg) for one of those; then it is the last word.
-std::string texture_name(const std::string& line) {
-  std::string name;
-  tinyobj::texture_option_t options{};
-  if (tinyobj::ParseTextureNameAndOption(&name, &options, line.c_str())) return name;
-  return line.substr(line.find_last_of(" \t") + 1);
-}
-
-/// Lines of one MTL file, put into materials. Not by tinyobj::LoadMtl: it reads "nan", "abc" and a missing
-/// number as 0, says no line, and takes a Tr of three numbers for a dissolve.
+/// Lines of one MTL file, put into materials. Not by a library: tinyobjloader reads "nan", "abc" and a
+/// missing number as 0, says no line, and takes a Tr of three numbers for a dissolve.
 class MtlReader {
  public:
   MtlReader(const std::filesystem::path& path, Warnings& warnings) : path_(path), warnings_(warnings) {}
 
-  std::vector<MtlMaterial> read() {
-    const std::string text = plain_lines(read_text_file(path_));
+  std::vector<MtlMaterial> read(std::string_view text) {
     LineCursor cursor(text);
     while (const std::optional<ObjLine> line = cursor.next()) {
       if (line->keyword == "newmtl") {
@@ -75,8 +65,36 @@ class MtlReader {
       if (line.keyword == key.keyword) material.*key.member = read_colour(line);
     }
     if (line.keyword == "Ns") material.ns = read_exponent(line);
-    if (line.keyword == "Ni") material.ni = static_cast<float>(read_numbers(line, 1).front());
-    if (line.keyword == "map_Kd") material.map_kd = texture_name(std::string(line.rest));
+    if (line.keyword == "Ni") material.ni = read_index(line);
+    if (line.keyword == "d") material.d = read_transparency(line, 1);
+    if (line.keyword == "Tr") material.tr = read_transparency(line, 1);
+    if (line.keyword == "illum") material.illum = read_transparency(line, 10);
+    if (line.keyword == "map_Kd") {
+      material.map_kd = texture_name(line.rest);
+      material.map_kd_where = {path_, line.number};
+    }
+  }
+
+  float read_index(const ObjLine& line) const {
+    const double ni = read_numbers(line, 1).front();
+    if (!(ni >= 0)) throw bad_line(line, "an index of refraction is not negative");
+    return ni == 0 ? 1.0f : static_cast<float>(ni);  // some exporters write 0 for what is no glass
+  }
+
+  /// The numbers of a line on transparency, if they make sense: a file is not refused for what most of its
+  /// materials carry without meaning it.
+  std::vector<float> read_transparency(const ObjLine& line, double most) {
+    constexpr std::string_view kHalo = "-halo ";  // of d: fades towards the rim; only its number counts here
+    const std::string_view text = line.rest.starts_with(kHalo) ? line.rest.substr(kHalo.size()) : line.rest;
+    const std::vector<double> numbers = parse_numbers(text).value_or(std::vector<double>{});
+    const bool sound =
+        (numbers.size() == 1 || numbers.size() == 3) &&
+        std::all_of(numbers.begin(), numbers.end(), [&](double x) { return x >= 0 && x <= most; });
+    if (sound) return {numbers.begin(), numbers.end()};
+    warn(warnings_, {path_, line.number},
+         fmt::format("{} is left out: one or three numbers from 0 to {} are needed",
+                     in_quotes(fmt::format("{} {}", line.keyword, line.rest)), most));
+    return {};
   }
 
   Rgb read_colour(const ObjLine& line) const {
@@ -108,10 +126,10 @@ class MtlReader {
   }
 
   SceneError bad_line(const ObjLine& line, std::string_view what) const {
-    const bool colour = line.keyword.starts_with('K');
     return {{path_, line.number},
             fmt::format("{}: {}", in_quotes(fmt::format("{} {}", line.keyword, line.rest)), what),
-            fmt::format("for example {} {}", line.keyword, colour ? "0.5 0.5 0.5" : "1.5")};
+            fmt::format("for example {} {}", line.keyword,
+                        line.keyword.starts_with('K') ? "0.5 0.5 0.5" : "1.5")};
   }
 
   std::filesystem::path path_;
@@ -122,8 +140,13 @@ class MtlReader {
 
 }  // namespace
 
+std::vector<MtlMaterial> parse_mtl(const std::filesystem::path& path, std::string_view text,
+                                   Warnings& warnings) {
+  return MtlReader(path, warnings).read(text);
+}
+
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path& path, Warnings& warnings) {
-  return MtlReader(path, warnings).read();
+  return parse_mtl(path, read_text_file(path, kMostDescriptionBytes, warnings), warnings);
 }
 
 }  // namespace lemma

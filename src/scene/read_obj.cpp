@@ -1,21 +1,24 @@
 #include "src/scene/read_obj.h"
 
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
-#include <sstream>
+#include <optional>
 #include <unordered_map>
 
+#include "src/core/machine.h"
 #include "src/scene/numbers.h"
 #include "src/scene/obj_lines.h"
 #include "src/scene/text_file.h"
 
 namespace lemma {
 namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// Something the file has that is left out: where first, and how often.
 struct Finding {
@@ -28,168 +31,216 @@ struct Finding {
 };
 
 /// Indices of vertices, normals and triangles are 32-bit numbers, of which the last means "none".
-constexpr std::size_t kMostElements = 0xFFFFFFFEu;
+constexpr std::uint64_t kMostElements = 0xFFFFFFFEu;
 
-enum class Field { number, not_finite, malformed };
-
-/// tinyobjloader reads whatever is no number as 0, and the rest of "1.2.3" not at all, without a word; so
-/// each field is looked at first.
-Field classify(std::string_view field) {
-  if (field.starts_with('+')) field.remove_prefix(1);
-  const char* const end = field.data() + field.size();
-  double value = 0;  // stays 0 for 1e999 and 1e-999, which the library takes for infinity and 0
-  const auto [stop, error] = std::from_chars(field.data(), end, value);
-  if (stop == end && error != std::errc::invalid_argument) {
-    return std::isfinite(value) ? Field::number : Field::not_finite;
-  }
-  return field.find("1.#") != field.npos ? Field::not_finite : Field::malformed;  // MSVC's -1.#IND, 1.#INF
+/// Cuts the first field off a line's rest.
+std::string_view take_field(std::string_view& rest) {
+  std::size_t length = 0;
+  while (length < rest.size() && rest[length] != ' ' && rest[length] != '\t') ++length;
+  const std::string_view field = rest.substr(0, length);
+  while (length < rest.size() && (rest[length] == ' ' || rest[length] == '\t')) ++length;
+  rest.remove_prefix(length);
+  return field;
 }
 
-/// Of the first three fields the worst; malformed if there are fewer.
-Field classify_three(std::string_view fields) {
-  Field worst = Field::number;
-  for (int k = 0; k < 3; ++k) {
-    const std::size_t length = std::min(fields.find_first_of(" \t"), fields.size());
-    worst = std::max(worst, classify(fields.substr(0, length)));
-    fields.remove_prefix(length);
-    fields.remove_prefix(std::min(fields.find_first_not_of(" \t"), fields.size()));
-  }
-  return worst;
+/// A number that no float holds: 1e999 is infinite, 1e-999 is 0.
+float beyond_float(std::string_view field) {
+  const double value = std::strtod(std::string(field).c_str(), nullptr);
+  return std::abs(value) > 1 ? kNan : 0.0f;
 }
 
-/// Whether each index of a face is a whole number other than 0 that fits an int: atoi, by which tinyobjloader
-/// reads them, cannot tell.
-bool indices_are_sound(std::string_view fields) {
-  constexpr std::string_view kSeparators = " \t/";
-  const char* at = fields.data();
-  const char* const end = at + fields.size();
-  while (at != end) {
-    if (kSeparators.find(*at) != kSeparators.npos) {
-      ++at;
-      continue;
+/// The whole field as a number; NaN for what is not finite, among it MSVC's -1.#IND and 1.#INF; nothing if it
+/// is no number.
+std::optional<float> parse_float(std::string_view field) {
+  std::string_view digits = field;
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  float value = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
+  if (stop == end && error == std::errc()) return value;
+  if (stop == end && error == std::errc::result_out_of_range) return beyond_float(digits);
+  return digits.find("1.#") != digits.npos ? std::optional(kNan) : std::nullopt;
+}
+
+/// Indices of one corner as written: 1 is the first, -1 the last so far, 0 stands for none.
+struct Corner {
+  int vertex = 0, texcoord = 0, normal = 0;
+};
+
+/// Takes a whole number other than 0.
+std::optional<int> take_index(const char*& at, const char* end) {
+  int index = 0;
+  const auto [stop, error] = std::from_chars(at, end, index);
+  if (error != std::errc() || index == 0) return std::nullopt;
+  at = stop;
+  return index;
+}
+
+/// "1", "1/2", "1//3", "1/2/3"; the numbers behind a slash may be missing.
+std::optional<Corner> parse_corner(std::string_view field) {
+  Corner corner;
+  const char* at = field.data();
+  const char* const end = at + field.size();
+  int* const slots[] = {&corner.vertex, &corner.texcoord, &corner.normal};
+  for (std::size_t slot = 0; slot < std::size(slots); ++slot) {
+    if (slot > 0) {
+      if (at == end) return corner;
+      if (*at++ != '/') return std::nullopt;
     }
-    int index = 0;
-    const auto [next, error] = std::from_chars(at, end, index);
-    if (error != std::errc() || index == 0) return false;
-    if (next != end && kSeparators.find(*next) == kSeparators.npos) return false;
-    at = next;
+    if (slot > 0 && (at == end || *at == '/')) continue;
+    const std::optional<int> index = take_index(at, end);
+    if (!index) return std::nullopt;
+    *slots[slot] = *index;
   }
-  return true;
+  return at == end ? std::optional(corner) : std::nullopt;
 }
 
-/// Takes what tinyobjloader calls back with. The library gives no positions, and has changed which names and
-/// numbers it accepts from version to version; so a cursor follows it from line to line, and each line is
-/// checked here.
 class ObjReader {
  public:
-  ObjReader(const std::filesystem::path& path, Warnings& warnings)
-      : path_(path), warnings_(warnings), text_(plain_lines(read_text_file(path))), cursor_(text_) {}
+  ObjReader(const std::filesystem::path& path, std::string_view text, Warnings& warnings,
+            const ObjLimits& limits)
+      : path_(path), text_(text), warnings_(warnings), limits_(limits) {}
 
   ObjFile read() {
-    find_libraries();
-    tinyobj::callback_t callbacks;
-    callbacks.vertex_cb = [](void* self, float x, float y, float z, float) {
-      of(self).add_vertex({x, y, z});
-    };
-    callbacks.normal_cb = [](void* self, float x, float y, float z) { of(self).add_normal({x, y, z}); };
-    callbacks.index_cb = [](void* self, tinyobj::index_t* corners, int n) { of(self).add_face(corners, n); };
-    callbacks.usemtl_cb = [](void* self, const char*, int) { of(self).use_material(); };
-    std::istringstream stream(text_);
-    std::string library_warnings, error;
-    if (!tinyobj::LoadObjWithCallback(stream, callbacks, this, nullptr, &library_warnings, &error)) {
-      throw SceneError({path_}, fmt::format("the OBJ reader gives up: {}", in_quotes(error)), "");
-    }
+    reserve();
+    LineCursor cursor(text_);
+    while (const std::optional<ObjLine> line = cursor.next()) read_line(*line);
     report_findings();
     return std::move(file_);
   }
 
  private:
-  static ObjReader& of(void* self) { return *static_cast<ObjReader*>(self); }
-
-  void find_libraries() {
-    LineCursor cursor(text_);
-    while (const std::optional<ObjLine> line = cursor.next()) {
-      if (line->keyword == "mtllib" && !line->rest.empty()) {
-        file_.libraries.push_back({std::string(line->rest), {path_, line->number}});
+  /// Takes the memory that the lines need at once: a vector that grows holds everything twice for a while.
+  void reserve() {
+    std::size_t vertices = 0, normals = 0, texcoords = 0, faces = 0;
+    for (std::size_t at = 0; at + 2 < text_.size();) {
+      if (text_[at] == 'v') {
+        vertices += text_[at + 1] == ' ' ? 1 : 0;
+        normals += text_[at + 1] == 'n' ? 1 : 0;
+        texcoords += text_[at + 1] == 't' ? 1 : 0;
       }
+      faces += text_[at] == 'f' ? 1 : 0;
+      const std::size_t end = text_.find('\n', at);
+      if (end == text_.npos) break;
+      at = end + 1;
+    }
+    file_.vertices.reserve(vertices);
+    file_.normals.reserve(normals);
+    file_.texcoords.reserve(texcoords);
+    file_.triangles.reserve(std::min<std::uint64_t>(faces, limits_.triangles));
+  }
+
+  void read_line(const ObjLine& line) {
+    if (line.keyword == "v") {
+      add_vertex(line);
+    } else if (line.keyword == "vn") {
+      file_.normals.push_back(read_three(line));
+    } else if (line.keyword == "vt") {
+      add_texcoord(line);
+    } else if (line.keyword == "f") {
+      add_face(line);
+    } else if (line.keyword == "usemtl" && !line.rest.empty()) {
+      material_ = material_index({std::string(line.rest), {path_, line.number}});
+    } else if (line.keyword == "mtllib" && !line.rest.empty()) {
+      file_.libraries.push_back({std::string(line.rest), {path_, line.number}});
     }
   }
 
-  /// The line that the library just read: the next one with this keyword and something behind it.
-  ObjLine line_of(std::string_view keyword) {
-    while (const std::optional<ObjLine> line = cursor_.next()) {
-      if (line->keyword == keyword && !line->rest.empty()) return *line;
+  Vec3 read_three(const ObjLine& line) const {
+    Vec3 three;
+    std::string_view rest = line.rest;
+    for (int k = 0; k < 3; ++k) {
+      const std::optional<float> number = parse_float(take_field(rest));
+      if (!number) {
+        throw SceneError({path_, line.number},
+                         fmt::format("{} is not \"{}\" and three numbers",
+                                     in_quotes(fmt::format("{} {}", line.keyword, line.rest)), line.keyword),
+                         fmt::format("for example {} 0.5 1 -2e-3", line.keyword));
+      }
+      three[k] = *number;
     }
-    throw SceneError({path_}, "the OBJ reader and its line counter disagree", "");
+    return is_finite(three) ? three : Vec3(kNan);
   }
 
-  Vec3 checked(const Vec3& read, const ObjLine& line) const {
-    const Field field = classify_three(line.rest);
-    if (field == Field::malformed) {
-      throw SceneError({path_, line.number},
-                       fmt::format("{} is not \"{}\" and three numbers",
-                                   in_quotes(fmt::format("{} {}", line.keyword, line.rest)), line.keyword),
-                       fmt::format("for example {} 0.5 1 -2e-3", line.keyword));
-    }
-    return field == Field::number ? read : Vec3(std::numeric_limits<float>::quiet_NaN());
-  }
-
-  void add_vertex(const Vec3& read) {
-    const ObjLine line = line_of("v");
-    const Vec3 vertex = checked(read, line);
+  void add_vertex(const ObjLine& line) {
+    const Vec3 vertex = read_three(line);
     if (!is_finite(vertex) || max_norm(vertex) > kMaxCoordinate) bad_vertices_.add(line.number);
     file_.vertices.push_back(vertex);
   }
 
-  void add_normal(const Vec3& read) { file_.normals.push_back(checked(read, line_of("vn"))); }
+  /// u, and v, which may be missing; a texture that cannot be placed is no reason to refuse a file.
+  void add_texcoord(const ObjLine& line) {
+    std::string_view rest = line.rest;
+    const float u = parse_float(take_field(rest)).value_or(kNan);
+    const std::string_view second = take_field(rest);
+    const float v = second.empty() ? 0.0f : parse_float(second).value_or(kNan);
+    const bool finite = std::isfinite(u) && std::isfinite(v);
+    if (!finite) bad_texcoords_.add(line.number);
+    file_.texcoords.push_back(finite ? Vec2(u, v) : Vec2(kNan));
+  }
 
-  void add_face(const tinyobj::index_t* corners, int n) {
-    const ObjLine line = line_of("f");
-    if (!indices_are_sound(line.rest)) {
-      throw SceneError(
-          {path_, line.number}, fmt::format("{} is no face", in_quotes(fmt::format("f {}", line.rest))),
-          "corners are written 1, 1/2, 1//3 or 1/2/3; no index is 0; -1 is the last vertex so far");
+  void add_face(const ObjLine& line) {
+    corners_.clear();
+    for (std::string_view rest = line.rest; !rest.empty();) {
+      const std::optional<Corner> corner = parse_corner(take_field(rest));
+      if (!corner) {
+        throw SceneError(
+            {path_, line.number}, fmt::format("{} is no face", in_quotes(fmt::format("f {}", line.rest))),
+            "corners are written 1, 1/2, 1//3 or 1/2/3; no index is 0; -1 is the last vertex so far");
+      }
+      corners_.push_back(*corner);
     }
-    if (n < 3) return short_faces_.add(line.number);
-    const std::size_t triangles = file_.triangles.size() + static_cast<std::size_t>(n);
-    if (std::max({triangles, file_.vertices.size(), file_.normals.size()}) > kMostElements) {
-      throw SceneError({path_, line.number}, "the file has more than 2^32 - 2 elements", "divide it");
-    }
+    if (corners_.size() < 3) return short_faces_.add(line.number);
+    require_room(line.number);
     if (!material_) material_ = material_index({"", {path_, line.number}});
     ObjTriangle fan{.material = *material_};
-    set_corner(fan, 0, corners[0], line.number);
-    set_corner(fan, 2, corners[1], line.number);
-    for (int k = 2; k < n; ++k) {
+    set_corner(fan, 0, corners_[0], line.number);
+    set_corner(fan, 2, corners_[1], line.number);
+    for (std::size_t k = 2; k < corners_.size(); ++k) {
       fan.vertex[1] = fan.vertex[2];
       fan.normal[1] = fan.normal[2];
-      set_corner(fan, 2, corners[k], line.number);
+      fan.texcoord[1] = fan.texcoord[2];
+      set_corner(fan, 2, corners_[k], line.number);
       file_.triangles.push_back(fan);
     }
   }
 
-  void set_corner(ObjTriangle& t, std::size_t slot, const tinyobj::index_t& corner, int line) const {
-    t.vertex[slot] = resolve(corner.vertex_index, file_.vertices.size(), "vertex", line);
-    t.normal[slot] = corner.normal_index == 0
-                         ? kNoNormal
-                         : resolve(corner.normal_index, file_.normals.size(), "normal", line);
+  void require_room(int line) const {
+    const std::size_t vectors =
+        std::max({file_.vertices.size(), file_.normals.size(), file_.texcoords.size()});
+    if (file_.triangles.size() + corners_.size() - 2 <= limits_.triangles && vectors <= kMostElements) return;
+    throw SceneError(
+        {path_, line},
+        fmt::format("the file has more than {} triangles, the most that are read here", limits_.triangles),
+        "divide it, or use a machine with more memory");
   }
 
-  /// The 0-based index for one of the file: 1 is the first, -1 the last so far.
-  std::uint32_t resolve(int index, std::size_t count, std::string_view what, int line) const {
+  void set_corner(ObjTriangle& t, std::size_t slot, const Corner& corner, int line) {
+    t.vertex[slot] = resolve(corner.vertex, file_.vertices.size(), "vertex", line);
+    t.normal[slot] =
+        corner.normal == 0 ? kNoIndex : resolve(corner.normal, file_.normals.size(), "normal", line);
+    const std::optional<std::uint32_t> texcoord = find_index(corner.texcoord, file_.texcoords.size());
+    if (corner.texcoord != 0 && !texcoord) undefined_texcoords_.add(line);
+    t.texcoord[slot] = texcoord.value_or(kNoIndex);
+  }
+
+  /// The 0-based index for one of the file; nothing if there is no such element yet.
+  static std::optional<std::uint32_t> find_index(int index, std::size_t count) {
     const auto n = static_cast<std::int64_t>(count);
     const std::int64_t at = index > 0 ? std::int64_t{index} - 1 : n + index;
-    if (at < 0 || at >= n) {
+    if (index == 0 || at < 0 || at >= n) return std::nullopt;
+    return static_cast<std::uint32_t>(at);
+  }
+
+  std::uint32_t resolve(int index, std::size_t count, std::string_view what, int line) const {
+    const std::optional<std::uint32_t> at = find_index(index, count);
+    if (!at) {
       throw SceneError({path_, line},
                        fmt::format("a face uses {} {}, but {} {} defined before it", what, index, count,
                                    count == 1 ? "is" : "are"),
                        "indices count from 1; negative ones count back from the last one defined, -1");
     }
-    return static_cast<std::uint32_t>(at);
-  }
-
-  void use_material() {
-    const ObjLine line = line_of("usemtl");
-    material_ = material_index({std::string(line.rest), {path_, line.number}});
+    return *at;
   }
 
   std::uint32_t material_index(const ObjName& name) {
@@ -199,34 +250,50 @@ class ObjReader {
     return entry->second;
   }
 
+  void report(const Finding& finding, std::string_view what, std::string_view consequence) {
+    if (finding.count == 0) return;
+    warn(warnings_, {path_, finding.line}, fmt::format("{} ({} in all){}", what, finding.count, consequence));
+  }
+
   void report_findings() {
-    if (bad_vertices_.count > 0) {
-      warn(
-          warnings_, {path_, bad_vertices_.line},
-          fmt::format("a vertex is not finite or beyond 1e18 ({} in all); triangles that use one are dropped",
-                      bad_vertices_.count));
-    }
-    if (short_faces_.count > 0) {
-      warn(
-          warnings_, {path_, short_faces_.line},
-          fmt::format("a face has fewer than three corners ({} in all) and is left out", short_faces_.count));
-    }
+    report(bad_vertices_, "a vertex is not finite or beyond 1e18", "; triangles that use one are dropped");
+    report(bad_texcoords_, "a texture coordinate is no finite number",
+           "; triangles that use one have no texture");
+    report(undefined_texcoords_, "a face uses a texture coordinate that is not defined before it",
+           "; its triangles have no texture");
+    report(short_faces_, "a face has fewer than three corners", " and is left out");
   }
 
   std::filesystem::path path_;
+  std::string_view text_;
   Warnings& warnings_;
-  std::string text_;
-  LineCursor cursor_;
+  ObjLimits limits_;
   ObjFile file_;
   std::unordered_map<std::string, std::uint32_t> material_indices_;
+  std::vector<Corner> corners_;            // of the face that is read
   std::optional<std::uint32_t> material_;  // of the faces that follow
-  Finding bad_vertices_, short_faces_;
+  Finding bad_vertices_, bad_texcoords_, undefined_texcoords_, short_faces_;
 };
+
+/// What a triangle takes in loading at its peak, measured on a million triangles with normals and texture
+/// coordinates of their own, and rounded up; and what may be taken of the machine.
+constexpr std::uint64_t kBytesATriangle = 400;
+constexpr std::uint64_t kMemoryShare = 2;
 
 }  // namespace
 
-ObjFile read_obj(const std::filesystem::path& path, Warnings& warnings) {
-  return ObjReader(path, warnings).read();
+ObjLimits ObjLimits::of_machine() {
+  const std::uint64_t memory = machine_memory() / kMemoryShare;
+  return {.bytes = memory, .triangles = std::min(memory / kBytesATriangle, kMostElements)};
+}
+
+ObjFile parse_obj(const std::filesystem::path& path, std::string_view text, Warnings& warnings,
+                  const ObjLimits& limits) {
+  return ObjReader(path, text, warnings, limits).read();
+}
+
+ObjFile read_obj(const std::filesystem::path& path, Warnings& warnings, const ObjLimits& limits) {
+  return parse_obj(path, read_text_file(path, limits.bytes, warnings), warnings, limits);
 }
 
 }  // namespace lemma

@@ -1,8 +1,9 @@
 """What the program says to a command line or a scene that it cannot use."""
 
+import resource
 import unittest
 
-from lemma import CORNELL_BOX, LemmaTest, choices, options_with_choices, render_options
+from lemma import BAD_INPUT, CORNELL_BOX, LemmaTest, choices, options_with_choices, render_options
 
 SEE_RENDER_HELP = "lemma render --help tells what it takes"
 SEE_HELP = "expected one of: render, trace, parity, compare; lemma --help tells more"
@@ -117,6 +118,31 @@ class SceneTest(ErrorTest):
         line = 1 + text[:text.index("<camera")].count("\n")
         self.assert_file_error(["scene"], f"scene/cornell-box.xml:{line}:1", 'fovy is "wide": a number is needed',
                                'for example fovy="40"')
+
+
+class StrictTest(ErrorTest):
+    def test_warnings_are_errors(self):
+        xml = self.copy_scene() / "cornell-box.xml"
+        with open(xml, "a", encoding="utf-8") as file:
+            file.write("<fog/><smoke/>\n")
+        line = xml.read_text().count("\n")
+        warnings = "".join(f"scene/cornell-box.xml:{line}:{column}: warning: <{name}> is unknown and left out\n"
+                           for column, name in ((1, "fog"), (7, "smoke")))
+        self.assert_refused(["render", "-q", "scene", "--strict"],
+                            f"{warnings}lemma: error: 2 warnings, which --strict takes for errors\n"
+                            "  hint: mend the scene, or leave --strict out")
+
+    def test_a_scene_without_warnings_renders(self):
+        self.render("--strict")
+
+
+class MemoryTest(ErrorTest):
+    def test_images_that_the_machine_cannot_hold_are_refused(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (2**32, 2**32))
+        run = self.lemma("render", CORNELL_BOX, "--size", "16384x16384", "-q", preexec_fn=limit)
+        self.assertEqual((run.returncode, run.stderr),
+                         (BAD_INPUT, "lemma: error: an image of 16384x16384 needs 13 GB of memory; there are 4 GB\n"
+                                     "  hint: choose a smaller one with --size\n"))
 
 
 class OutputTest(ErrorTest):

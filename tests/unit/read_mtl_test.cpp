@@ -37,15 +37,35 @@ TEST_F(ReadMtl, TakesColoursExponentIndexAndTexture) {
   EXPECT_EQ(m.ns, 5000.0f);
   EXPECT_EQ(m.ni, 1.5f);
   EXPECT_EQ(m.map_kd, "wood 5.jpg");
+  EXPECT_EQ(m.map_kd_where.line, 12);
+  EXPECT_EQ(m.tr, (std::vector<float>{1, 1, 1}));
+  EXPECT_EQ(m.d, std::vector<float>{0.5f});
+  EXPECT_EQ(m.illum, std::vector<float>{2});
   EXPECT_EQ(materials[1].kd, Rgb{});
   EXPECT_EQ(materials[1].ns, 1.0f);
   EXPECT_TRUE(warnings_.empty());
 }
 
-TEST_F(ReadMtl, TextureNames) {
-  EXPECT_EQ(read("newmtl a\nmap_Kd -o 0.1 a.jpg\n")[0].map_kd, "a.jpg");
-  EXPECT_EQ(read("newmtl a\nmap_Kd -blendu on -mm 0 1 a b.jpg\n")[0].map_kd, "a b.jpg");
-  EXPECT_EQ(read("newmtl a\nmap_Kd\n")[0].map_kd, "");
+TEST_F(ReadMtl, TransparencyThatMakesNoSenseIsLeftOutWithAWarning) {
+  const auto materials = read("newmtl a\nTr 0.9\nd -halo 0.25\nnewmtl b\nTr 1 2\nd 1.5\nillum glass\n");
+  EXPECT_EQ(materials[0].tr, std::vector<float>{0.9f});
+  EXPECT_EQ(materials[0].d, std::vector<float>{0.25f});
+  EXPECT_TRUE(materials[1].tr.empty() && materials[1].d.empty() && materials[1].illum.empty());
+  for (std::string& warning : warnings_) warning = folder_.plain(warning);
+  EXPECT_EQ(
+      warnings_,
+      (Warnings{
+          "FOLDER/a.mtl:5: warning: \"Tr 1 2\" is left out: one or three numbers from 0 to 1 are needed",
+          "FOLDER/a.mtl:6: warning: \"d 1.5\" is left out: one or three numbers from 0 to 1 are needed",
+          "FOLDER/a.mtl:7: warning: \"illum glass\" is left out: one or three numbers from 0 to 10 are "
+          "needed"}));
+}
+
+TEST_F(ReadMtl, IndexOfRefraction) {
+  EXPECT_EQ(read("newmtl a\nNi 0\n")[0].ni, 1.0f) << "some exporters write 0 for what is no glass";
+  EXPECT_EQ(error_of("newmtl a\nNi -1.5\n"),
+            "FOLDER/a.mtl:2: error: \"Ni -1.5\": an index of refraction is not negative\n  hint: for example "
+            "Ni 1.5");
 }
 
 TEST_F(ReadMtl, OneNumberIsAGrey) {

@@ -39,7 +39,7 @@ TEST_F(ReadObj, VerticesNormalsAndMaterials) {
   ASSERT_EQ(obj.triangles.size(), 2u);
   EXPECT_EQ(obj.triangles[0].vertex, (Indices{0, 1, 2}));
   EXPECT_EQ(obj.triangles[0].normal, (Indices{0, 0, 0}));
-  EXPECT_EQ(obj.triangles[1].normal, (Indices{kNoNormal, kNoNormal, kNoNormal}));
+  EXPECT_EQ(obj.triangles[1].normal, (Indices{kNoIndex, kNoIndex, kNoIndex}));
   ASSERT_EQ(obj.materials.size(), 2u);
   EXPECT_EQ(obj.materials[0].name, "red");
   EXPECT_EQ(obj.materials[0].where.line, 6);
@@ -62,9 +62,14 @@ TEST_F(ReadObj, PolygonsBecomeFansInFileOrder) {
 
 TEST_F(ReadObj, FansCarryNormalsAndMissingOnes) {
   const ObjFile obj = read(with_four_vertices("vn 1 0 0\nvn 0 1 0\nvn 0 0 1\nf 1//3 2/9/2 3/9 4//1\n"));
+  EXPECT_EQ(obj.triangles[0].texcoord, (Indices{kNoIndex, kNoIndex, kNoIndex}));
+  EXPECT_EQ(warning(0),
+            "FOLDER/a.obj:8: warning: a face uses a texture coordinate that is not defined before it (2 in "
+            "all); its "
+            "triangles have no texture");
   ASSERT_EQ(obj.triangles.size(), 2u);
-  EXPECT_EQ(obj.triangles[0].normal, (Indices{2, 1, kNoNormal}));
-  EXPECT_EQ(obj.triangles[1].normal, (Indices{2, kNoNormal, 0}));
+  EXPECT_EQ(obj.triangles[0].normal, (Indices{2, 1, kNoIndex}));
+  EXPECT_EQ(obj.triangles[1].normal, (Indices{2, kNoIndex, 0}));
 }
 
 TEST_F(ReadObj, NegativeIndicesCountFromTheCurrentEnd) {
@@ -125,6 +130,54 @@ TEST_F(ReadObj, FacesWithTwoCornersAreLeftOutWithAWarning) {
             "FOLDER/a.obj:5: warning: a face has fewer than three corners (2 in all) and is left out");
 }
 
+TEST_F(ReadObj, TextureCoordinates) {
+  const ObjFile obj = read(with_four_vertices(
+      "vt 0.25 0.5 0\nvt .75\nvt nan 0\nvt a b\nf 1/1 2/-3 3/2/\nf 1/1/ 2// 3\nf 1/3 2/3 3/4\n"));
+  ASSERT_EQ(obj.texcoords.size(), 4u);
+  EXPECT_EQ(obj.texcoords[0], Vec2(0.25f, 0.5f));
+  EXPECT_EQ(obj.texcoords[1], Vec2(0.75f, 0));
+  EXPECT_TRUE(std::isnan(obj.texcoords[2].x) && std::isnan(obj.texcoords[3].x));
+  EXPECT_EQ(obj.triangles[0].texcoord, (Indices{0, 1, 1}));
+  EXPECT_EQ(obj.triangles[1].texcoord, (Indices{0, kNoIndex, kNoIndex}));
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_EQ(
+      warning(0),
+      "FOLDER/a.obj:7: warning: a texture coordinate is no finite number (2 in all); triangles that use "
+      "one have no texture");
+}
+
+TEST_F(ReadObj, NumbersBeyondFloat) {
+  const ObjFile obj = read("v 1e-999 -1e-60 1e-42\nv 0 1e300 0\nv 0 -1e999 0\n");
+  EXPECT_EQ(obj.vertices[0].x, 0.0f);
+  EXPECT_EQ(obj.vertices[0].y, 0.0f);
+  EXPECT_EQ(obj.vertices[0].z, 1e-42f) << "subnormal, and still a number";
+  EXPECT_TRUE(std::isnan(obj.vertices[1].y) && std::isnan(obj.vertices[2].y));
+}
+
+TEST_F(ReadObj, MoreTrianglesThanTheMachineHoldsAreRefused) {
+  const std::filesystem::path file = folder_.write("a.obj", with_four_vertices("f 1 2 3\nf 1 2 3 4\n"));
+  EXPECT_EQ(read_obj(file, warnings_, {.bytes = 100, .triangles = 3}).triangles.size(), 3u);
+  const auto refusal = [&](const ObjLimits& limits) {
+    return folder_.error_of([&] { (void)read_obj(file, warnings_, limits); });
+  };
+  EXPECT_EQ(refusal({.bytes = 100, .triangles = 2}),
+            "FOLDER/a.obj:6: error: the file has more than 2 triangles, the most that are read here\n"
+            "  hint: divide it, or use a machine with more memory");
+  EXPECT_EQ(refusal({.bytes = 10, .triangles = 3}),
+            "FOLDER/a.obj: error: the file has 0.0 MB; at most 0.0 MB are read\n"
+            "  hint: check that it is the right file, or divide it");
+}
+
+TEST_F(ReadObj, TruncatedAndBinaryFiles) {
+  EXPECT_EQ(read(with_four_vertices("f 1 2 3\nf 1 2")).triangles.size(), 1u);
+  EXPECT_EQ(
+      error_of("v 0 0 0\nv 1 0"),
+      "FOLDER/a.obj:2: error: \"v 1 0\" is not \"v\" and three numbers\n  hint: for example v 0.5 1 -2e-3");
+  EXPECT_EQ(error_of(std::string_view("\x89PNG\r\n\x1a\n\0\0", 10)),
+            "FOLDER/a.obj:3: error: the file holds zero bytes: it is no text in UTF-8\n"
+            "  hint: save it as UTF-8, without compression");
+}
+
 TEST_F(ReadObj, IndexOutOfRange) {
   constexpr std::string_view kHint =
       "\n  hint: indices count from 1; negative ones count back from the last one "
@@ -148,7 +201,7 @@ TEST_F(ReadObj, WhatIsNoIndex) {
       "\n  hint: corners are written 1, 1/2, 1//3 or 1/2/3; no index is 0; -1 is the last "
       "vertex so far";
   for (const std::string face : {"f 0 1 2", "f 1 2 3/0", "f 1//0 2 3", "f 1 two 3", "f 1.5 2 3",
-                                 "f 1 2 4294967297", "f 1-2 3 4", "f +1 2 3"}) {
+                                 "f 1 2 4294967297", "f 1-2 3 4", "f +1 2 3", "f /1 2 3", "f 1/2/3/4 2 3"}) {
     EXPECT_EQ(error_of(with_four_vertices("# remark\n" + face)),
               ("FOLDER/a.obj:6: error: \"" + face + "\" is no face").append(kHint));
   }

@@ -70,6 +70,7 @@ void expect_view(const CameraView& view) {
 TEST_F(ReadXml, AttributeDialect) {
   const XmlScene scene = read(kAttributes);
   expect_view(scene.view);
+  EXPECT_EQ(scene.dialect, "XML, no root, attributes");
   ASSERT_EQ(scene.lights.size(), 3u);
   EXPECT_EQ(scene.lights[0].material, "light1");
   EXPECT_EQ(scene.lights[0].radiance, (Rgb{300, 300, 300}));
@@ -82,6 +83,7 @@ TEST_F(ReadXml, AttributeDialect) {
 TEST_F(ReadXml, ChildDialect) {
   const XmlScene scene = read(kChildren);
   expect_view(scene.view);
+  EXPECT_EQ(scene.dialect, "XML, no root, children with values");
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_EQ(scene.lights[0].radiance, (Rgb{300, 300, 300}));
   EXPECT_TRUE(warnings_.empty());
@@ -92,6 +94,7 @@ TEST_F(ReadXml, RootElementsAreOptional) {
     const XmlScene scene = read(fmt::format("<{0}>\r\n{1}</{0}>", root, kChildren));
     expect_view(scene.view);
     EXPECT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.dialect, fmt::format("XML, <{}>, children with values", root));
   }
   EXPECT_TRUE(warnings_.empty());
 }
@@ -137,7 +140,6 @@ TEST_F(ReadXml, SyntaxErrorsHaveLineAndColumn) {
 TEST_F(ReadXml, NoCamera) {
   const std::string hint = "\n  hint: for example " + std::string(kCameraExample);
   EXPECT_EQ(error_of(" \n"), "FOLDER/a.xml: error: there is no <camera>" + hint);
-  EXPECT_EQ(error_of("# camera\nwidth 500\n"), "FOLDER/a.xml: error: there is no <camera>" + hint);
   EXPECT_EQ(error_of("<a><camera/></a>"), "FOLDER/a.xml: error: there is no <camera>" + hint);
 }
 
@@ -216,6 +218,126 @@ TEST_F(ReadXml, Radiance) {
   EXPECT_EQ(error_with("light1", ""),
             "FOLDER/a.xml:8:1: error: mtlname is \"\": the name of a material is needed\n"
             "  hint: for example mtlname=\"Light\"");
+}
+
+TEST_F(ReadXml, LineEndsTabsAndMissingLastLineEnd) {
+  std::string text(kAttributes);
+  for (auto at = text.find('\n'); at != text.npos; at = text.find('\n', at + 2)) text.insert(at, 1, '\r');
+  const XmlScene windows = read(text);
+  expect_view(windows.view);
+  EXPECT_EQ(windows.lights[2].where.line, 10);
+  text = kChildren;
+  text.pop_back();
+  expect_view(read(text).view);
+}
+
+TEST_F(ReadXml, TruncatedFiles) {
+  EXPECT_EQ(
+      error_of(kAttributes.substr(0, 150)),
+      "FOLDER/a.xml:4:11: error: Error parsing element attribute\n  hint: the file must be well-formed XML");
+  EXPECT_EQ(error_of(kChildren.substr(0, 70)),
+            "FOLDER/a.xml:2:42: error: Start-end tags mismatch\n  hint: the file must be well-formed XML");
+}
+
+TEST_F(ReadXml, DeeplyNestedElements) {
+  std::string deep;
+  for (int i = 0; i < 200000; ++i) deep += "<a>";
+  for (int i = 0; i < 200000; ++i) deep += "</a>";
+  EXPECT_EQ(read(deep + std::string(kChildren)).lights.size(), 1u);
+  EXPECT_EQ(plain_warnings(), Warnings{"FOLDER/a.xml:1:1: warning: <a> is unknown and left out"});
+}
+
+TEST_F(ReadXml, ManyUnknownNamesAreCounted) {
+  std::string many(kChildren);
+  for (int i = 0; i < 1000; ++i) many += fmt::format("<a{}/>\n", i);
+  read(many);
+  ASSERT_EQ(warnings_.size(), 21u);
+  EXPECT_EQ(plain_warnings().back(), "FOLDER/a.xml: warning: 980 more names are unknown and left out");
+}
+
+TEST_F(ReadXml, ManyLightsTakeNoLongTime) {
+  std::string many(kChildren);
+  for (int i = 0; i < 100000; ++i) many += fmt::format("<light mtlname=\"m{}\" radiance=\"1,1,1\"/>\n", i);
+  const XmlScene scene = read(many);
+  EXPECT_EQ(scene.lights.size(), 100001u);
+  EXPECT_EQ(scene.lights.back().where.line, 9 + 100000);
+}
+
+TEST_F(ReadXml, Spheres) {
+  const XmlScene scene =
+      read(std::string(kChildren) + "<sphere mtlname=\"light1\" center=\"0.0, 1.0, 2\" radius=\"0.5\"/>");
+  ASSERT_EQ(scene.spheres.size(), 1u);
+  EXPECT_EQ(scene.spheres[0].material, "light1");
+  EXPECT_EQ(scene.spheres[0].centre, Vec3(0, 1, 2));
+  EXPECT_EQ(scene.spheres[0].radius, 0.5);
+  EXPECT_TRUE(warnings_.empty());
+  for (const std::string radius : {"0", "-1", "nan", "2e18"}) {
+    EXPECT_EQ(
+        error_of(fmt::format("{}<sphere mtlname=\"a\" center=\"0 0 0\" radius=\"{}\"/>", kChildren, radius)),
+        fmt::format("FOLDER/a.xml:10:1: error: radius is \"{}\": a number above 0, at most 1e+18, is needed\n"
+                    "  hint: for example radius=\"0.1\"",
+                    radius));
+  }
+  EXPECT_EQ(error_of(std::string(kChildren) + "<sphere mtlname=\"a\" radius=\"1\"/>"),
+            "FOLDER/a.xml:10:1: error: <sphere> has no center\n  hint: for example center=\"0, 1, 0\"");
+}
+
+constexpr std::string_view kPlain =
+    "# camera\ntype perspective\nwidth 1280\nheight 720\nfovy 20.1143\neye 28.2792 5.2 1.23612e-06\n"
+    "lookat 0.0 2.8 0.0\nup 0 2 0\n\n# light\nmtlname light1 300 300 300\nmtlname a b 50 20 10";
+
+TEST_F(ReadXml, PlainTextDialect) {
+  for (const std::string& text : {std::string(kPlain), "\xEF\xBB\xBF" + std::string(kPlain) + "\r\n"}) {
+    const XmlScene scene = read(text);
+    expect_view(scene.view);
+    EXPECT_EQ(scene.dialect, "plain text");
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.lights[0].material, "light1");
+    EXPECT_EQ(scene.lights[0].radiance, (Rgb{300, 300, 300}));
+    EXPECT_EQ(scene.lights[1].material, "a b") << "names may hold blanks";
+    EXPECT_EQ(scene.lights[1].where.line, 12);
+  }
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(ReadXml, PlainTextErrors) {
+  const auto error = [&](std::string_view part, std::string_view replacement) {
+    std::string text(kPlain);
+    text.replace(text.find(part), part.size(), replacement);
+    return error_of(text);
+  };
+  EXPECT_EQ(error("up 0 2 0", ""), "FOLDER/a.xml: error: the camera has no up\n  hint: for example up 0 1 0");
+  EXPECT_EQ(error("1280", "wide"),
+            "FOLDER/a.xml:3: error: width is \"wide\": a number is needed\n  hint: for example width 1280");
+  EXPECT_EQ(error("up 0 2 0", "up 0 2"),
+            "FOLDER/a.xml:8: error: up is \"0 2\": three numbers are needed\n  hint: for example up 0 1 0");
+  EXPECT_EQ(error("up 0 2 0", "up 0 0 0"),
+            "FOLDER/a.xml:8: error: up is zero or along the line from eye to lookat\n"
+            "  hint: set up to the direction that is upwards in the image");
+  EXPECT_EQ(error("up 0 2 0", "eye 0 2 0"),
+            "FOLDER/a.xml:8: error: eye is given twice\n  hint: keep one of them");
+  EXPECT_EQ(error("light1 300 300 300", "light1 300 -1 300"),
+            "FOLDER/a.xml:11: error: radiance is \" 300 -1 300\": numbers from 0 to 3.40282e+38 are needed\n"
+            "  hint: for example mtlname Light 17 12 4");
+  EXPECT_EQ(error("light1 300 300 300", "light1 300 300"),
+            "FOLDER/a.xml:11: error: mtlname is \"\": the name of a material is needed\n"
+            "  hint: for example mtlname Light 17 12 4");
+  EXPECT_EQ(error("perspective", "thinlens"),
+            "FOLDER/a.xml:2: error: type is \"thinlens\": only perspective cameras are supported\n"
+            "  hint: for example type perspective");
+}
+
+TEST_F(ReadXml, NeitherXmlNorPlainText) {
+  EXPECT_EQ(error_of("{\"camera\": 1}\n"),
+            "FOLDER/a.xml: error: this is neither XML nor the plain text of a scene\n"
+            "  hint: XML starts with '<'; plain text has lines such as width 1280 and mtlname Light 17 12 4");
+  EXPECT_EQ(error_of("# camera\nwidth 500\n"),
+            "FOLDER/a.xml: error: the camera has no eye\n  hint: for example eye 0 1 5");
+}
+
+TEST_F(ReadXml, UnknownWordsOfPlainTextAreWarnedOf) {
+  read(std::string(kPlain) + "\nspp 10\nfog 1\n");
+  EXPECT_EQ(plain_warnings(), Warnings{"FOLDER/a.xml:13: warning: \"spp\" is unknown and left out"});
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "src/core/warp.h"
 #include "src/scene/load_scene.h"
 #include "src/scene/scene_error.h"
@@ -25,7 +27,7 @@ class LoadScene : public testing::Test {
     folder_.write("a.xml", xml);
     folder_.write("a.obj", obj);
     folder_.write("a.mtl", mtl);
-    LoadedScene loaded = load_scene(folder_.path());
+    LoadedScene loaded = load_scene(folder_.path(), options_);
     for (std::string& warning : loaded.report.warnings) warning = folder_.plain(warning);
     return loaded;
   }
@@ -39,6 +41,7 @@ class LoadScene : public testing::Test {
   static std::string lit() { return std::string(kCamera).append(kLight); }
 
   test::SceneFolder folder_;
+  LoadOptions options_;
 };
 
 using Lines = std::vector<std::string>;
@@ -192,6 +195,49 @@ TEST_F(LoadScene, KeIsNeverAddedToTheXml) {
             Lines{"FOLDER/a.mtl:2: warning: Ke 1 2 3 of \"lamp\" is left out: the XML gives a radiance"});
 }
 
+TEST_F(LoadScene, KaEmitsOnlyByRuleAndWhereNothingElseSays) {
+  constexpr std::string_view mtl =
+      "newmtl wall\nKa 1 1 1\nKd 0.5 0.5 0.5\nnewmtl lamp\nKa 901.8 901.8 900\nKe 3 2 1\n";
+  EXPECT_EQ(load(kCamera, kObj, mtl).scene.emitters[0].radiance, (Rgb{3, 2, 1})) << "Ke before Ka";
+  options_.emission = EmissionRule::ka;
+  EXPECT_EQ(load(kCamera, kObj, mtl).scene.emitters[0].radiance, (Rgb{3, 2, 1}));
+  const auto by_ka = load(kCamera, kObj, "newmtl wall\nKa 1 1 1\nnewmtl lamp\nKa 901.8 901.8 900\n");
+  ASSERT_EQ(by_ka.scene.emitters.size(), 1u);
+  EXPECT_EQ(by_ka.scene.emitters[0].radiance, (Rgb{901.8f, 901.8f, 900}));
+  EXPECT_EQ(by_ka.report.warnings,
+            Lines{"FOLDER/a.mtl:3: warning: \"lamp\" emits 901.8 901.8 900 by its Ka"});
+  EXPECT_EQ(load(lit(), kObj, "newmtl wall\nnewmtl lamp\nKa 9 9 9\n").scene.emitters[0].radiance,
+            (Rgb{17, 12, 4}))
+      << "the XML before all";
+}
+
+TEST_F(LoadScene, NamesEmitOnlyByRule) {
+  const std::string obj = std::string(kVertices) + "usemtl wall\nf 1 2 3 4\nusemtl CeilingLight\nf 1 2 3\n";
+  options_.emission = EmissionRule::name;
+  const auto [scene, report] = load(kCamera, obj, "newmtl wall\nnewmtl CeilingLight\nKd 1 1 1\n");
+  ASSERT_EQ(scene.emitters.size(), 1u);
+  EXPECT_EQ(scene.emitters[0].radiance, (Rgb{1, 1, 1}));
+  EXPECT_EQ(report.warnings, Lines{"FOLDER/a.mtl:2: warning: \"CeilingLight\" emits 1 1 1 by its name"});
+}
+
+TEST_F(LoadScene, SpheresBecomeTrianglesOfTheSameArea) {
+  const auto [scene, report] =
+      load(lit() + R"(<sphere mtlname="lamp" center="1, 2, 3" radius="0.5"/>)", kObj, kMtl);
+  ASSERT_EQ(scene.emitters.size(), 1u + 1280u);
+  double sum = 0;
+  for (std::size_t i = 1; i < scene.emitters.size(); ++i) {
+    const Emitter& e = scene.emitters[i];
+    sum += area(e.shape);
+    EXPECT_FALSE(emits_towards(e, {1, 2, 3})) << "outwards";
+    EXPECT_NEAR(length(Vec3d(e.shape.v0) - Vec3d(1, 2, 3)), 0.5, 0.005)
+        << "1280 triangles bulge by less than 1 %";
+  }
+  // Each of 1280 areas has the rounding of its vertices, 2^-24 * 3.5, on edges of about 0.07.
+  EXPECT_NEAR(sum, std::numbers::pi, std::numbers::pi * 0x1p-24 * 3.5 / 0.07 * 2);
+  EXPECT_EQ(scene.needs.lights, 1u);
+  EXPECT_TRUE(report.warnings.empty());
+}
+
 TEST_F(LoadScene, BlackLightsReflect) {
   const auto [scene, report] = load(lit() + "<light mtlname=\"wall\" radiance=\"0,0,0\"/>", kObj,
                                     "newmtl wall\nKe 1 1 1\nnewmtl lamp\n");
@@ -268,7 +314,7 @@ TEST_F(LoadScene, NoEmitters) {
   EXPECT_EQ(error(kCamera, "newmtl wall\nKa 0.2 0.2 0.2\nnewmtl lamp\nKa 20 20 10\n"),
             "FOLDER/a.xml: error: no emitters found: the image would be black\n"
             "  hint: candidates: \"lamp\" (Ka 20 20 10); write <light mtlname=\"NAME\" radiance=\"17, 12, "
-            "4\"/> into the XML");
+            "4\"/> into the XML, or let --emission ka take what looks like a light");
 }
 
 TEST_F(LoadScene, CandidatesByName) {
@@ -279,7 +325,7 @@ TEST_F(LoadScene, CandidatesByName) {
             "FOLDER/a.xml: error: no emitters found: the image would be black\n"
             "  hint: candidates: \"CeilingLight\" (Ka 0 0 0); write <light mtlname=\"NAME\" radiance=\"17, "
             "12, 4\"/> into "
-            "the XML");
+            "the XML, or let --emission name take what looks like a light");
 }
 
 TEST_F(LoadScene, NoTriangles) {
