@@ -30,6 +30,13 @@ std::string describe(const std::optional<AnyHit>& hit) {
   return hit ? fmt::format("triangle {} at t {}", hit->triangle, hit->t) : "nothing";
 }
 
+/// "triangle 7 at t 1.5"; of a wrong occlusion also what the closest hit is, as the two may contradict.
+std::string answer(const Fault& fault) {
+  const std::string hit = describe(fault.answer);
+  if (fault.what != "occlusion") return hit;
+  return fmt::format("{} (closest hit: {})", fault.occluded ? "blocked" : "not blocked", hit);
+}
+
 /// Commands for a shell that trace the ray of a fault again.
 std::string replay(const ParityOptions& options, std::string_view accel, const Fault& fault) {
   std::string bytes;
@@ -56,7 +63,7 @@ Json to_json(const ParityOptions& options, const Record& record) {
   for (const Fault& fault : record.first_faults) {
     faults.push_back({{"kind", kRayKindNames[static_cast<std::size_t>(fault.kind)]},
                       {"what", fault.what},
-                      {"answer", describe(fault.answer)},
+                      {"answer", answer(fault)},
                       {"truth", describe(fault.truth)},
                       {"replay", replay(options, record.name, fault)}});
   }
@@ -78,7 +85,7 @@ std::string parity_text(const ParityOptions& options, std::span<const Record> re
   for (const Record& record : records) {
     for (const Fault& fault : record.first_faults) {
       text += fmt::format("{}: {} ({} ray): answers {}, the truth is {}\n  {}\n", record.name, fault.what,
-                          kRayKindNames[static_cast<std::size_t>(fault.kind)], describe(fault.answer),
+                          kRayKindNames[static_cast<std::size_t>(fault.kind)], answer(fault),
                           describe(fault.truth), replay(options, record.name, fault));
     }
   }

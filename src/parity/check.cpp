@@ -93,8 +93,9 @@ Record examine(const Contestant& contestant, const Questions& q, bool in_batches
     const RayKind kind = kind_of(q.indices[asked[i]]);
     Tally& tally = record.kinds[static_cast<std::size_t>(kind)];
     count_ray(expected, tally);
-    const std::string_view what = judge(expected, answers.hits[i], answers.occluded[i] != 0, tally);
-    if (!what.empty()) add_fault({kind, rays[i], what, answers.hits[i], expected.exact}, record);
+    const bool occluded = answers.occluded[i] != 0;
+    const std::string_view what = judge(expected, answers.hits[i], occluded, tally);
+    if (!what.empty()) add_fault({kind, rays[i], what, answers.hits[i], occluded, expected.exact}, record);
   }
   return record;
 }

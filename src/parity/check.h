@@ -32,8 +32,9 @@ struct Tally {
 struct Fault {
   RayKind kind = RayKind::camera;
   Ray ray;
-  std::string_view what;  // "wrong", "missed" or "occlusion"
-  std::optional<Hit> answer;
+  std::string_view what;      // "wrong", "missed" or "occlusion"
+  std::optional<Hit> answer;  // of closest_hit
+  bool occluded = false;      // answer of occluded()
   std::optional<ExactHit> truth;
 };
 
