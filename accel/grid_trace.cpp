@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "accel/grid_walk.h"
+#include "src/core/instruction_sets.h"
 
 // This file is compiled once for every instruction set, by including itself.
 #undef HWY_TARGET_INCLUDE
@@ -182,17 +183,8 @@ namespace lemma {
 HWY_EXPORT(grid_trace);
 
 const std::vector<GridTrace>& grid_traces() {
-  static const std::vector<GridTrace> traces = [] {
-    std::vector<GridTrace> all;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-      hwy::SetSupportedTargetsForTest(target);
-      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-      all.push_back(HWY_DYNAMIC_DISPATCH(grid_trace)());
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return all;
-  }();
+  static const std::vector<GridTrace> traces =
+      for_every_instruction_set([] { return HWY_DYNAMIC_DISPATCH(grid_trace)(); });
   return traces;
 }
 

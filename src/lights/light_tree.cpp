@@ -22,7 +22,7 @@ class LightTree::Builder {
     std::vector<bool> in_whole(tree_.emitters_.size(), false);
     std::vector<LightItem> items;
     for (std::uint32_t w = 0; w < tree_.wholes_.size(); ++w) {
-      const auto& emitters = tree_.wholes_[w].emitters;
+      const auto& emitters = tree_.wholes_[w].body.emitters;
       for (const std::uint32_t e : emitters) in_whole[e] = true;
       LightBounds bounds = bounds_of(items_of(emitters));
       bounds.power /= kSurfaceToSilhouette;
@@ -85,8 +85,8 @@ class LightTree::Builder {
   void build_single(std::uint32_t node, const LightItem& item) {
     if (item.whole) {
       tree_.nodes_[node].whole = item.index;
-      for (const std::uint32_t e : tree_.wholes_[item.index].emitters) tree_.places_[e].whole = node;
-      std::vector<LightItem> parts = items_of(tree_.wholes_[item.index].emitters);
+      for (const std::uint32_t e : tree_.wholes_[item.index].body.emitters) tree_.places_[e].whole = node;
+      std::vector<LightItem> parts = items_of(tree_.wholes_[item.index].body.emitters);
       build(node, parts);
     } else {
       tree_.nodes_[node].emitter = item.index;
@@ -97,8 +97,11 @@ class LightTree::Builder {
   LightTree& tree_;
 };
 
-LightTree::LightTree(std::span<const Emitter> emitters)
-    : emitters_(emitters), wholes_(find_whole_lights(emitters)) {
+LightTree::LightTree(std::span<const Emitter> emitters) : emitters_(emitters) {
+  for (WholeLight& light : find_whole_lights(emitters)) {
+    BodyMesh mesh(emitters, light);
+    wholes_.push_back({std::move(light), std::move(mesh)});
+  }
   Builder(*this).build();
 }
 
@@ -106,23 +109,38 @@ LightTree::LightTree(std::span<const Emitter> emitters)
 bool LightTree::is_light(const Node& node, const Vec3& x) const {
   if (node.children == 0) return true;
   if (node.whole == kNone) return false;
-  const WholeLight& whole = wholes_[node.whole];
+  const WholeLight& whole = wholes_[node.whole].body;
   return SphereCone(whole.centre, whole.radius, x).can_be_sampled();
 }
+
+namespace {
+
+/// Luminance x solid angle x cosine at the surface, nearly; 0 only if the emitter cannot contribute. In
+/// float32, with the formula of SphericalTriangle and the mean of max(0, cosine) at the vertices.
+double importance_of(const Emitter& emitter, const LightQuery& at) {
+  constexpr float least = 1e-30f;  // nothing that can be seen underflows to 0 ...
+  constexpr float slack = 1e-6f;   // ... or falls below the horizon, of cosines that err by less than this
+  const double side = side_of(emitter.shape, at.x);
+  if (!(side > 0)) return 0;
+  const Vec3 a = emitter.shape.v0 - at.x, b = emitter.shape.v1 - at.x, c = emitter.shape.v2 - at.x;
+  const float la = length(a), lb = length(b), lc = length(c);
+  const auto cosine = [&](const Vec3& v, float size) { return std::max(dot(at.n, v) / size + slack, 0.0f); };
+  const float cosines = cosine(a, la) + cosine(b, lb) + cosine(c, lc);
+  if (cosines == 0) return 0;
+  const float solid_angle = 2 * std::atan2(std::max(static_cast<float>(side), least),
+                                           la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+  return double{luminance(emitter.radiance)} * std::max(solid_angle, least) * (cosines / 3);
+}
+
+}  // namespace
 
 /// Luminance x solid angle x cosine at the surface: of a light nearly exactly, of other nodes an estimate. 0
 /// only if no emitter of the node can contribute.
 double LightTree::importance(const Node& node, const LightQuery& at) const {
   const Vec3d n(at.n);
-  if (node.children == 0) {
-    const Emitter& emitter = emitters_[node.emitter];
-    if (!emits_towards(emitter, at.x)) return 0;
-    const SphericalTriangle seen(emitter.shape, at.x);
-    if (!(seen.solid_angle() > 0)) return 0;
-    return luminance(emitter.radiance) * seen.solid_angle() * seen.mean_cosine(n);
-  }
+  if (node.children == 0) return importance_of(emitters_[node.emitter], at);
   if (node.whole != kNone) {
-    const WholeLight& whole = wholes_[node.whole];
+    const WholeLight& whole = wholes_[node.whole].body;
     const SphereCone cone(whole.centre, whole.radius, at.x);
     if (cone.can_be_sampled()) {
       return luminance(emitters_[whole.emitters.front()].radiance) * cone.solid_angle() * cone.mean_cosine(n);
@@ -134,7 +152,7 @@ double LightTree::importance(const Node& node, const LightQuery& at) const {
 LightTree::Choice LightTree::choice(std::uint32_t index, double pmf, const Vec3& x) const {
   const Node& node = nodes_[index];
   const bool whole = node.whole != kNone && is_light(node, x);
-  return {pmf, node.emitter, whole ? &wholes_[node.whole] : nullptr, index};
+  return {pmf, node.emitter, whole ? &wholes_[node.whole] : nullptr};
 }
 
 LightTree::Weights LightTree::weigh_children(const Node& node, const LightQuery& at) const {
@@ -180,73 +198,6 @@ LightTree::Choice LightTree::choice_of(const LightQuery& at, std::uint32_t emitt
     pmf *= own / weights.sum;
   }
   return choice(light, pmf, at.x);
-}
-
-struct LightTree::Ray {
-  Vec3d origin, direction, inverse;
-};
-
-struct LightTree::Nearest {
-  double t = std::numeric_limits<double>::infinity();
-  std::uint32_t emitter = kNone;
-  Vec3d y;
-};
-
-namespace {
-
-/// Where a ray enters a box; infinite if it misses it. The margin is far above the rounding in double and
-/// lets no ray slip past the rim of a flat box.
-double entry(const Bounds& box, const Vec3d& origin, const Vec3d& inverse) {
-  constexpr double margin = 1 + 1e-12;
-  double enter = 0, leave = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    const double a = (double{box.lo[k]} - origin[k]) * inverse[k];
-    const double b = (double{box.hi[k]} - origin[k]) * inverse[k];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b) * margin);
-  }
-  return enter <= leave ? enter : std::numeric_limits<double>::infinity();
-}
-
-struct Crossing {
-  double t;
-  Vec3d y;
-};
-
-/// Where a ray crosses a triangle, by the signs of the volumes that it spans with the edges.
-std::optional<Crossing> cross_triangle(const Triangle& triangle, const Vec3d& origin, const Vec3d& w) {
-  const Vec3d a = Vec3d(triangle.v0) - origin, b = Vec3d(triangle.v1) - origin,
-              c = Vec3d(triangle.v2) - origin;
-  const double at_a = dot(w, cross(b, c)), at_b = dot(w, cross(c, a)), at_c = dot(w, cross(a, b));
-  if ((at_a < 0 || at_b < 0 || at_c < 0) && (at_a > 0 || at_b > 0 || at_c > 0)) return std::nullopt;
-  const double sum = at_a + at_b + at_c;
-  if (sum == 0) return std::nullopt;
-  const Vec3d y = (a * at_a + b * at_b + c * at_c) * (1 / sum);
-  const double t = dot(y, w);
-  if (!(t > 0)) return std::nullopt;
-  return Crossing{t, y + origin};
-}
-
-}  // namespace
-
-void LightTree::find_nearest(std::uint32_t index, const Ray& ray, Nearest& nearest) const {
-  const Node& node = nodes_[index];
-  if (node.children == 0) {
-    const auto crossing = cross_triangle(emitters_[node.emitter].shape, ray.origin, ray.direction);
-    if (crossing && crossing->t < nearest.t) nearest = {crossing->t, node.emitter, crossing->y};
-    return;
-  }
-  for (std::uint32_t child = node.first_child; child < node.first_child + node.children; ++child) {
-    if (entry(nodes_[child].box, ray.origin, ray.inverse) < nearest.t) find_nearest(child, ray, nearest);
-  }
-}
-
-std::optional<LightTree::EmitterPoint> LightTree::first_hit(std::uint32_t node, const Vec3& x,
-                                                            const Vec3d& w) const {
-  Nearest nearest;
-  find_nearest(node, {Vec3d(x), w, Vec3d(1 / w.x, 1 / w.y, 1 / w.z)}, nearest);
-  if (nearest.emitter == kNone) return std::nullopt;
-  return EmitterPoint{nearest.emitter, nearest.y};
 }
 
 }  // namespace lemma

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "src/lights/body_mesh.h"
 #include "src/lights/light_bounds.h"
 #include "src/lights/light_sampler.h"
 #include "src/lights/whole_light.h"
@@ -18,12 +19,17 @@ class LightTree {
  public:
   explicit LightTree(std::span<const Emitter> emitters);
 
+  /// A whole light and what a ray meets first of it.
+  struct Whole {
+    WholeLight body;
+    BodyMesh mesh;
+  };
+
   /// A light chosen: one of the two.
   struct Choice {
     double pmf = 0;
     std::uint32_t emitter = 0;
-    const WholeLight* whole = nullptr;  // then `emitter` means nothing
-    std::uint32_t node = 0;
+    const Whole* whole = nullptr;  // then `emitter` means nothing
   };
 
   /// Draws a light for u uniform in [0, 1); nothing if no light can reach the surface.
@@ -32,21 +38,11 @@ class LightTree {
   /// The light that an emitter is sampled with from there, and the probability that choose() returns it.
   [[nodiscard]] Choice choice_of(const LightQuery& at, std::uint32_t emitter) const;
 
-  struct EmitterPoint {
-    std::uint32_t emitter;
-    Vec3d y;
-  };
-
-  /// What the ray from x in direction w meets first of the emitters below a node, either side of them.
-  [[nodiscard]] std::optional<EmitterPoint> first_hit(std::uint32_t node, const Vec3& x,
-                                                      const Vec3d& w) const;
-
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
   struct Node {
-    explicit Node(const LightBounds& bounds) : box(bounds.box), importance(bounds) {}
-    Bounds box;
+    explicit Node(const LightBounds& bounds) : importance(bounds) {}
     LightImportance importance;
     std::uint32_t parent = kNone;
     std::uint32_t first_child = 0, children = 0;  // children lie together; a leaf has none
@@ -57,8 +53,6 @@ class LightTree {
   struct Place {
     std::uint32_t leaf = kNone, whole = kNone;
   };
-  struct Ray;
-  struct Nearest;
   class Builder;
 
   static constexpr std::size_t kWidth = 16;  // children of a node at most
@@ -72,10 +66,9 @@ class LightTree {
   [[nodiscard]] bool is_light(const Node& node, const Vec3& x) const;
   [[nodiscard]] double importance(const Node& node, const LightQuery& at) const;
   [[nodiscard]] Choice choice(std::uint32_t node, double pmf, const Vec3& x) const;
-  void find_nearest(std::uint32_t node, const Ray& ray, Nearest& nearest) const;
 
   std::span<const Emitter> emitters_;
-  std::vector<WholeLight> wholes_;
+  std::vector<Whole> wholes_;
   std::vector<Node> nodes_;    // the root first
   std::vector<Place> places_;  // by emitter
 };

@@ -32,12 +32,6 @@ SphericalTriangle::SphericalTriangle(const Triangle& triangle, const Vec3& x) {
       widest > kSmallestChord2 && solid_angle_ > kSmallestSolidAngle && solid_angle_ < kLargestSolidAngle;
 }
 
-double SphericalTriangle::mean_cosine(const Vec3d& n) const {
-  const double at_a = dot(n, a_), at_b = dot(n, b_), at_c = dot(n, c_);
-  const double middle = (at_a + at_b + at_c) / length(a_ + b_ + c_);
-  return 0.25 * (std::max(at_a, 0.0) + std::max(at_b, 0.0) + std::max(at_c, 0.0) + std::max(middle, 0.0));
-}
-
 Vec3d SphericalTriangle::sample(const Vec2& u) const {
   // b is the apex that the arcs run to. The arc through the point sought meets the side a c in d, where the
   // part of the triangle beside it covers u.x of its solid angle.

@@ -20,10 +20,6 @@ class SphericalTriangle {
   /// cosine that sampling their area serves as well.
   [[nodiscard]] bool can_be_sampled() const { return can_be_sampled_; }
 
-  /// About the mean over the triangle of max(0, n . w): that at its vertices and in its middle. Positive
-  /// exactly if the triangle reaches above the horizon of n.
-  [[nodiscard]] double mean_cosine(const Vec3d& n) const;
-
   /// Unit direction from x, uniform over the solid angle, for u uniform in [0,1)^2.
   /// Sources: Arvo, Stratified Sampling of Spherical Triangles, SIGGRAPH 1995 (the map); Peters, BRDF
   /// Importance Sampling for Polygonal Lights, SIGGRAPH 2021 (its arithmetic, which has no angle of the

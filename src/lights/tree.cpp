@@ -19,39 +19,53 @@ class TreeSampler final : public LightSampler {
     const Vec2 u = random.next_2d();
     const auto light = tree_.choose(at, choice);
     if (!light) return std::nullopt;
-    const auto point = light->whole != nullptr
-                           ? tree_.first_hit(light->node, at.x, cone(*light->whole, at.x).sample(u))
-                           : point_on(light->emitter, at.x, u);
-    if (!point) return std::nullopt;
-    const auto connection = connect(emitters_[point->emitter], at.x, point->y);
-    if (!connection) return std::nullopt;
-    const PdfSolidAngle pdf = density(at, *light, *connection);
-    if (!(pdf.value > 0)) return std::nullopt;
-    return make_light_sample(emitters_, point->emitter, at.x, *connection, pdf);
+    return light->whole != nullptr ? sample_whole(at, *light, u) : sample_emitter(at, *light, u);
   }
 
   PdfSolidAngle pdf(const LightQuery& at, std::uint32_t emitter, const Vec3& y) const override {
     const auto connection = connect(emitters_[emitter], at.x, Vec3d(y));
     if (!connection) return {0};
-    return density(at, tree_.choice_of(at, emitter), *connection);
+    const LightTree::Choice light = tree_.choice_of(at, emitter);
+    if (light.whole != nullptr) return whole_pdf(light.pmf, cone(*light.whole, at.x));
+    const Triangle& triangle = emitters_[emitter].shape;
+    return triangle_pdf(light.pmf, triangle, SphericalTriangle(triangle, at.x), *connection);
   }
 
  private:
-  static SphereCone cone(const WholeLight& light, const Vec3& x) { return {light.centre, light.radius, x}; }
-
-  [[nodiscard]] std::optional<LightTree::EmitterPoint> point_on(std::uint32_t emitter, const Vec3& x,
-                                                                const Vec2& u) const {
-    const Triangle& triangle = emitters_[emitter].shape;
-    return LightTree::EmitterPoint{emitter, sample_triangle(triangle, SphericalTriangle(triangle, x), x, u)};
+  static SphereCone cone(const LightTree::Whole& light, const Vec3& x) {
+    return {light.body.centre, light.body.radius, x};
   }
 
-  [[nodiscard]] PdfSolidAngle density(const LightQuery& at, const LightTree::Choice& light,
-                                      const Connection& connection) const {
-    if (light.whole != nullptr) {
-      return {static_cast<float>(light.pmf / cone(*light.whole, at.x).solid_angle())};
-    }
+  static PdfSolidAngle whole_pdf(double pmf, const SphereCone& cone) {
+    return {static_cast<float>(pmf / cone.solid_angle())};
+  }
+
+  [[nodiscard]] std::optional<LightSample> sample_whole(const LightQuery& at, const LightTree::Choice& light,
+                                                        const Vec2& u) const {
+    const SphereCone seen = cone(*light.whole, at.x);
+    const auto point = light.whole->mesh.first_hit(at.x, seen.sample(u));
+    if (!point) return std::nullopt;
+    return make_sample(at, point->emitter, point->y,
+                       [&](const Connection&) { return whole_pdf(light.pmf, seen); });
+  }
+
+  [[nodiscard]] std::optional<LightSample> sample_emitter(const LightQuery& at,
+                                                          const LightTree::Choice& light,
+                                                          const Vec2& u) const {
     const Triangle& triangle = emitters_[light.emitter].shape;
-    return triangle_pdf(light.pmf, triangle, SphericalTriangle(triangle, at.x), connection);
+    const SphericalTriangle seen(triangle, at.x);
+    return make_sample(at, light.emitter, sample_triangle(triangle, seen, at.x, u),
+                       [&](const Connection& c) { return triangle_pdf(light.pmf, triangle, seen, c); });
+  }
+
+  template <class Density>
+  [[nodiscard]] std::optional<LightSample> make_sample(const LightQuery& at, std::uint32_t emitter,
+                                                       const Vec3d& y, const Density& density) const {
+    const auto connection = connect(emitters_[emitter], at.x, y);
+    if (!connection) return std::nullopt;
+    const PdfSolidAngle pdf = density(*connection);
+    if (!(pdf.value > 0)) return std::nullopt;
+    return make_light_sample(emitters_, emitter, at.x, *connection, pdf);
   }
 
   std::span<const Emitter> emitters_;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "src/core/instruction_sets.h"
 #include "src/lights/projected_triangle.h"
 
 // This file is compiled once for every instruction set, by including itself.
@@ -181,17 +182,8 @@ namespace lemma {
 HWY_EXPORT(weigh_emitters);
 
 const std::vector<WeighEmitters>& all_weigh_emitters() {
-  static const std::vector<WeighEmitters> all = [] {
-    std::vector<WeighEmitters> found;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-      hwy::SetSupportedTargetsForTest(target);
-      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-      found.push_back(HWY_DYNAMIC_DISPATCH(weigh_emitters)());
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return found;
-  }();
+  static const std::vector<WeighEmitters> all =
+      for_every_instruction_set([] { return HWY_DYNAMIC_DISPATCH(weigh_emitters)(); });
   return all;
 }
 
