@@ -2,6 +2,7 @@
 
 #include "accel/watertight.h"
 #include "integrators/integrator.h"
+#include "integrators/path_record.h"
 #include "integrators/vertex.h"
 
 namespace lemma {
@@ -43,20 +44,26 @@ namespace lemma {
   return top_of(scene, to_light, {1, triangle, 0, 0}).triangle != triangle;
 }
 
-/// One light sample at a vertex: f cos L / pdf times the Technique's weight (path.h); 0 if the light is not
-/// seen.
-template <Model M, class Technique>
+/// One light sample at a vertex: throughput f cos L / pdf times the Technique's weight (path.h); 0 if the
+/// light is not seen.
+template <Model M, class Technique, class Observer>
 [[nodiscard]] Rgb light_sample(const World& world, const Vertex<M>& vertex, const LightQuery& query,
-                               Tracer& tracer, Sampler& random) {
+                               const Rgb& throughput, Tracer& tracer, Sampler& random, Observer& observer) {
   const std::optional<LightSample> light = world.lights.sample(query, random);
-  if (!light) return {};
+  const auto lost = [&](LightFate fate) {
+    observer.light(vertex, light, fate, 0.0f, Rgb{});
+    return Rgb{};
+  };
+  if (!light) return lost(LightFate::none);
   const Rgb f_cos = vertex.eval_cos(light->wi);
-  if (is_black(f_cos)) return {};
+  if (is_black(f_cos)) return lost(LightFate::below);
   const Ray to_light{vertex.origin(), light->to_light, 0, light->visible_until};
-  if (M.overlays && is_covered(world.scene, to_light, light->emitter)) return {};
-  if (tracer.occluded(to_light)) return {};
-  return f_cos * light->radiance *
-         (Technique::light_weight(light->pdf, vertex.pdf(light->wi)) / light->pdf.value);
+  if (M.overlays && is_covered(world.scene, to_light, light->emitter)) return lost(LightFate::covered);
+  if (tracer.occluded(to_light)) return lost(LightFate::hidden);
+  const float weight = Technique::light_weight(light->pdf, vertex.pdf(light->wi));
+  const Rgb contribution = throughput * (f_cos * light->radiance * (weight / light->pdf.value));
+  observer.light(vertex, light, LightFate::seen, weight, contribution);
+  return contribution;
 }
 
 }  // namespace lemma

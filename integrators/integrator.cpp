@@ -2,19 +2,22 @@
 
 namespace lemma {
 
-// The table of integrators: a new one is a file that defines make_NAME, and a line here.
+// The table of integrators: a new one is a file that defines make_ID, and a line here.
 #define LEMMA_INTEGRATORS(entry)                                                                            \
-  entry(mis,                                                                                                \
+  entry(mis, "mis",                                                                                         \
         "light and BRDF samples, weighted by multiple importance sampling (the report's 7.3, as one path)") \
-      entry(direct, "light samples for direct, BRDF samples for indirect light (the report's 7.1)")         \
-          entry(brdf, "BRDF samples only (the report's 7.2)")
+      entry(direct, "direct",                                                                               \
+            "light samples for direct, BRDF samples for indirect light (the report's 7.1)")                 \
+          entry(brdf, "brdf", "BRDF samples only (the report's 7.2)")                                       \
+              entry(mis_report, "mis-report",                                                               \
+                    "the report's eq. (11) as it stands: both samples of all light that arrives, weighted")
 
-#define LEMMA_DECLARE(name, help) \
-  std::unique_ptr<const Integrator> make_##name(const Model&, const IntegratorOptions&);
+#define LEMMA_DECLARE(id, name, help) \
+  std::unique_ptr<const Integrator> make_##id(const Model&, const IntegratorOptions&);
 LEMMA_INTEGRATORS(LEMMA_DECLARE)
 
 std::span<const Named<IntegratorFactory>> integrators() {
-#define LEMMA_ENTRY(name, help) {#name, make_##name, help},
+#define LEMMA_ENTRY(id, name, help) {name, make_##id, help},
   static constexpr Named<IntegratorFactory> table[] = {LEMMA_INTEGRATORS(LEMMA_ENTRY)};
   return table;
 }

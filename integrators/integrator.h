@@ -15,6 +15,8 @@
 
 namespace lemma {
 
+class PathRecorder;
+
 /// All that light transport reads; it never changes while rendering.
 struct World {
   const Scene& scene;
@@ -38,6 +40,10 @@ class Integrator {
   /// @param random  the numbers of this sample
   [[nodiscard]] virtual Rgb radiance(const Ray& ray, const std::optional<Hit>& first, const World& world,
                                      Tracer& tracer, Sampler& random) const = 0;
+
+  /// The same, bit for bit, while the recorder is told all that happens on the path. Slower.
+  [[nodiscard]] virtual Rgb explain(const Ray& ray, const std::optional<Hit>& first, const World& world,
+                                    Tracer& tracer, Sampler& random, PathRecorder& recorder) const = 0;
 };
 
 struct IntegratorOptions {

@@ -7,8 +7,6 @@ std::unique_ptr<const Integrator> make_brdf(const Model& model, const Integrator
 
 namespace {
 
-using PairWeight = float (*)(PdfSolidAngle, PdfSolidAngle);
-
 /// The report's 7.3 as one path: light samples and BRDF samples, both weighted by a heuristic. The report
 /// recursed into both samples, 2 x 0.6 = 1.2 new paths a vertex: in a closed scene that never ends.
 template <PairWeight Weight>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrators/emission.h"
+#include "integrators/observed.h"
 #include "integrators/vertex.h"
 
 namespace lemma {
@@ -13,12 +14,13 @@ namespace lemma {
 ///   brdf_weight(brdf, light)         of an emitter met at depth > 1; light() gives the density of light
 ///   sampling
 template <Model M, class Technique>
-class PathIntegrator final : public Integrator {
+class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Technique>> {
  public:
   explicit PathIntegrator(const IntegratorOptions& options) : options_(options) {}
 
-  Rgb radiance(const Ray& camera_ray, const std::optional<Hit>& first, const World& world, Tracer& tracer,
-               Sampler& random) const override {
+  template <class Observer>
+  Rgb follow(const Ray& camera_ray, const std::optional<Hit>& first, const World& world, Tracer& tracer,
+             Sampler& random, Observer& observer) const {
     Rgb radiance, throughput{1, 1, 1};
     Ray ray = camera_ray;
     std::optional<Hit> hit = first;
@@ -31,26 +33,35 @@ class PathIntegrator final : public Integrator {
         const float weight =
             depth == 1 ? 1.0f
                        : Technique::brdf_weight(pdf_brdf, [&] { return light_pdf(world, query, *hit); });
-        radiance += throughput * emitted(*emitter, ray.origin) * weight;
+        const Rgb emission = emitted(*emitter, ray.origin), contribution = throughput * emission * weight;
+        observer.emitter(*hit, emission, pdf_brdf, weight, contribution);
+        radiance += contribution;
         if (!options_.emitters_reflect) break;
       }
       if (depth > options_.max_depth) {
         ++tracer.counts.paths_cut;
+        observer.end(PathEnd::cut);
         break;
       }
       const Vertex<M> vertex(world.scene, ray, *hit);
+      observer.surface(*hit, vertex, throughput);
       if constexpr (Technique::kSamplesLights) {
         query = world.lights.query(vertex.origin(), vertex.shading_normal());
-        radiance += throughput * light_sample<M, Technique>(world, vertex, query, tracer, random);
+        radiance += light_sample<M, Technique>(world, vertex, query, throughput, tracer, random, observer);
       }
       const std::optional<ScatterSample> next = vertex.sample(random);
+      observer.scatter(next);
       if (!next) break;
       throughput *= next->weight;
-      if (!survives(options_.roulette, depth, throughput, random)) break;
+      const float q = survival(options_.roulette, depth, throughput);
+      const bool alive = survives(q, throughput, random);
+      observer.roulette(q, alive, throughput);
+      if (!alive) break;
       ray = {vertex.origin(), next->wi};
       pdf_brdf = next->pdf;
       hit = tracer.closest_hit(ray);
     }
+    if (!hit) observer.end(PathEnd::escaped);
     return radiance;
   }
 

@@ -3,15 +3,8 @@
 namespace lemma {
 namespace {
 
-constexpr float kFixedSurvival = 0.6f;  // the report's
 constexpr int kFirstThroughputDepth = 3;
 constexpr float kSmallestSurvival = 0.05f;  // bounds the weight of the paths that go on
-
-float survival(Roulette roulette, int depth, const Rgb& throughput) {
-  if (roulette == Roulette::fixed) return kFixedSurvival;
-  if (depth < kFirstThroughputDepth) return 1;
-  return std::clamp(max_channel(throughput), kSmallestSurvival, 1.0f);
-}
 
 }  // namespace
 
@@ -19,16 +12,27 @@ std::span<const Named<Roulette>> roulettes() {
   static constexpr Named<Roulette> table[] = {
       {"throughput", Roulette::throughput,
        "survive with the path's throughput, from the third scattering on"},
-      {"fixed", Roulette::fixed, "survive with probability 0.6 (the report's section 5)"}};
+      {"fixed", Roulette::fixed,
+       "survive with probability 0.6 (the report's section 5); for albedos below 0.775 only, "
+       "the variance is infinite in closed scenes of others"}};
   return table;
 }
 
-bool survives(Roulette roulette, int depth, Rgb& throughput, Sampler& random) {
-  const float q = survival(roulette, depth, throughput);
+float survival(Roulette roulette, int depth, const Rgb& throughput) {
+  if (roulette == Roulette::fixed) return kFixedSurvival;
+  if (depth < kFirstThroughputDepth) return 1;
+  return std::clamp(max_channel(throughput), kSmallestSurvival, 1.0f);
+}
+
+bool survives(float q, Rgb& throughput, Sampler& random) {
   if (q == 1) return true;
   if (random.next() >= q) return false;
   throughput *= 1 / q;
   return true;
+}
+
+bool has_infinite_variance(Roulette roulette, float albedo) {
+  return roulette == Roulette::fixed && albedo * albedo >= kFixedSurvival;
 }
 
 }  // namespace lemma

@@ -30,14 +30,28 @@ void add_real(CLI::App& app, const std::string& flag, float& value, float above,
             into(value, parse));
 }
 
+/// "12,7" with the separator ',' -> 12, 7.
+std::optional<std::pair<int, int>> parse_pair(const std::string& text, char separator) {
+  const auto middle = text.find(separator);
+  if (middle == std::string::npos) return std::nullopt;
+  const auto first = parse_number<int>(text.substr(0, middle));
+  const auto second = parse_number<int>(text.substr(middle + 1));
+  if (!first || !second) return std::nullopt;
+  return std::pair(*first, *second);
+}
+
 /// "1280x720" -> width, height.
 std::optional<std::pair<int, int>> parse_size(const std::string& text) {
-  const auto x = text.find('x');
-  if (x == std::string::npos) return std::nullopt;
-  const auto width = parse_number<int>(text.substr(0, x)), height = parse_number<int>(text.substr(x + 1));
-  const auto possible = [](const auto& edge) { return edge && *edge >= 1 && *edge <= kLargestEdge; };
-  if (!possible(width) || !possible(height)) return std::nullopt;
-  return std::pair(*width, *height);
+  const auto size = parse_pair(text, 'x');
+  const auto possible = [](int edge) { return edge >= 1 && edge <= kLargestEdge; };
+  return size && possible(size->first) && possible(size->second) ? size : std::nullopt;
+}
+
+/// "12,7" -> pixel.
+std::optional<Pixel> parse_pixel(const std::string& text) {
+  const auto at = parse_pair(text, ',');
+  if (!at || at->first < 0 || at->second < 0) return std::nullopt;
+  return Pixel{at->first, at->second};
 }
 
 std::optional<GridResolution> parse_grid_cells(const std::string& text) {
@@ -119,6 +133,24 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
   app.add_flag("-q,--quiet", o.quiet, "Print nothing but errors");
 }
 
+void add_pixel_options(CLI::App& app, RenderOptions& o) {
+  add_value(app,
+            {.flag = "--pixel",
+             .type = "X,Y",
+             .expected = "X,Y, e.g. 12,7; 0,0 is the upper left pixel",
+             .help = "Render this pixel alone and print its radiance; no image is written"},
+            [&o](const std::string& text) { return (o.pixel = parse_pixel(text)).has_value(); });
+  app.add_flag("--explain", o.explain,
+               "Tell what happens on each path of --pixel: vertices, densities of every sampling, weights, "
+               "contributions, roulette");
+  add_file(app,
+           {.flag = "--explain-json",
+            .type = "FILE.json",
+            .expected = "a file's name",
+            .help = "Write what --explain tells as JSON"},
+           [&o](const auto& path) { o.explain_json = path; });
+}
+
 }  // namespace
 
 CLI::App* add_render_command(CLI::App& app, RenderOptions& o) {
@@ -141,6 +173,7 @@ CLI::App* add_render_command(CLI::App& app, RenderOptions& o) {
              .expected = fmt::format("WIDTHxHEIGHT, each from 1 to {}, e.g. 1280x720", kLargestEdge),
              .help = "Image size in place of the scene's"},
             into(o.size, parse_size));
+  add_pixel_options(*render, o);
   return render;
 }
 

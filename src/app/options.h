@@ -20,6 +20,11 @@ namespace lemma {
 
 enum class ProgressStyle { automatic, bar, plain, off };
 
+/// A pixel of an image; 0, 0 is the upper left one.
+struct Pixel {
+  int x = 0, y = 0;
+};
+
 /// Everything `lemma render` can be told.
 struct RenderOptions {
   SceneOptions scene;
@@ -32,6 +37,9 @@ struct RenderOptions {
   Named<LightSamplerFactory> lights = light_samplers().front();
   RenderSettings settings;
   std::optional<std::pair<int, int>> size;  // width, height in place of the scene's
+  std::optional<Pixel> pixel;               // render this one alone
+  bool explain = false;                     // tell what happens on its paths
+  std::filesystem::path explain_json;       // the same as a file; empty: none
   int threads = 0;                          // 0: all
   ToneMap tone_map;
   ProgressStyle progress = ProgressStyle::automatic;

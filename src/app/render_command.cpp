@@ -6,12 +6,14 @@
 #include <tuple>
 
 #include "src/app/argument_error.h"
+#include "src/app/pixel_command.h"
 #include "src/app/progress.h"
 #include "src/app/summary.h"
 #include "src/core/machine.h"
 #include "src/core/parallel.h"
 #include "src/render/image_file.h"
 #include "src/render/whole_file.h"
+#include "src/scene/albedo.h"
 
 namespace lemma {
 namespace {
@@ -25,8 +27,22 @@ fs::path default_output(const LoadReport& report) {
 
 /// Checks all files that are to be written and whose names are known without the scene.
 void check_outputs(const RenderOptions& options) {
+  check_pixel_options(options);
   for (const fs::path& path : options.outputs) check_writable(path);
   if (!options.stats.empty()) check_whole_file(options.stats);
+  if (!options.explain_json.empty()) check_whole_file(options.explain_json);
+}
+
+/// What the options make of the scene that may surprise.
+void warn_of_options(const RenderOptions& options, LoadedScene& loaded) {
+  const IntegratorOptions& i = options.integrator_options;
+  const float albedo = largest_albedo(loaded.scene, i.emitters_reflect);
+  if (!has_infinite_variance(i.roulette, albedo)) return;
+  warn(loaded.report.warnings, {loaded.report.xml},
+       fmt::format(
+           "--rr {}: surfaces reflect up to {:.3g} of the light, whose square is not below {:.1f}: the "
+           "variance is infinite where paths cannot leave; --rr throughput has no such limit",
+           name_of(roulettes(), i.roulette), albedo, kFixedSurvival));
 }
 
 /// Memory of a pixel while an image is rendered and encoded: colours as float, as written, and once more in
@@ -48,6 +64,7 @@ LoadedScene load(const RenderOptions& options) {
   LoadedScene loaded = load_scene(options.scene.scene, options.scene.load);
   if (options.size) std::tie(loaded.scene.view.width, loaded.scene.view.height) = *options.size;
   require_memory(loaded.scene.view);
+  warn_of_options(options, loaded);
   if (!options.quiet) fmt::print(stderr, "{}\n", describe(loaded));
   if (!options.quiet || options.scene.strict) report_warnings(loaded.report.warnings, options.scene.strict);
   return loaded;
@@ -95,11 +112,14 @@ ExitCode run_render(const RenderOptions& options) {
   const LoadedScene loaded = load(options);
   const Scene& scene = loaded.scene;
   std::vector<fs::path> outputs = options.outputs;
-  if (outputs.empty()) check_writable(outputs.emplace_back(default_output(loaded.report)));
+  if (outputs.empty() && !options.pixel) {
+    check_writable(outputs.emplace_back(default_output(loaded.report)));
+  }
 
   const BuiltAccelerator built = build_accelerator(options, scene);
   const auto lights = options.lights.value(scene.emitters);
   const auto integrator = options.integrator.value(scene.needs.model, options.integrator_options);
+  if (options.pixel) return run_pixel(options, {scene, *built.accel, *lights}, *integrator);
   Progress progress(options.quiet ? ProgressStyle::off : options.progress);
   const RenderResult result = render({scene, *built.accel, *lights}, *integrator, options.settings,
                                      [&](double done) { progress.update(done); });

@@ -46,6 +46,8 @@ class Sampler {
         sample_(sample),
         sequence_(sequence) {}
 
+  [[nodiscard]] std::uint32_t pixel() const { return pixel_; }
+
   /// Uniform 32-bit integer: for choices among many, where 24 bits are too few.
   [[nodiscard]] std::uint32_t next_bits() {
     return sequence_ == Sequence::sobol ? next_sobol()[0] : next_independent();
