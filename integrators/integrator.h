@@ -41,9 +41,11 @@ class Integrator {
   [[nodiscard]] virtual Rgb radiance(const Ray& ray, const std::optional<Hit>& first, const World& world,
                                      Tracer& tracer, Sampler& random) const = 0;
 
-  /// The same, bit for bit, while the recorder is told all that happens on the path. Slower.
+  /// The same, bit for bit, while the recorder is told all that happens on the path: nothing, by default.
   [[nodiscard]] virtual Rgb explain(const Ray& ray, const std::optional<Hit>& first, const World& world,
-                                    Tracer& tracer, Sampler& random, PathRecorder& recorder) const = 0;
+                                    Tracer& tracer, Sampler& random, PathRecorder&) const {
+    return radiance(ray, first, world, tracer, random);
+  }
 };
 
 struct IntegratorOptions {

@@ -16,14 +16,9 @@ class ExplainingIntegrator final : public Integrator {
                Sampler& random) const override {
     if (random.pixel() != pixel_) return {};
     PathRecorder recorder(world.scene, strategies_);
-    const Rgb radiance = explain(ray, first, world, tracer, random, recorder);
+    const Rgb radiance = integrator_.explain(ray, first, world, tracer, random, recorder);
     sink_({samples_++, ray, recorder.take_events(), radiance});
     return radiance;
-  }
-
-  Rgb explain(const Ray& ray, const std::optional<Hit>& first, const World& world, Tracer& tracer,
-              Sampler& random, PathRecorder& recorder) const override {
-    return integrator_.explain(ray, first, world, tracer, random, recorder);
   }
 
  private:

@@ -31,8 +31,8 @@ def without(arguments, option):
 
 
 def made_quick(arguments):
-    """A rendering with few pixels and samples; what is no rendering, as it is."""
-    if arguments[0] != "render":
+    """A rendering with few pixels and samples; what is no rendering, or one of one pixel, as it is."""
+    if arguments[0] != "render" or "--pixel" in arguments:
         return arguments
     for option, value in QUICK.items():
         arguments = [*without(arguments, option), option, value]
@@ -71,6 +71,8 @@ class ReadmeTest(LemmaTest):
     def test_renderings_are_made_quick(self):
         self.assertEqual(made_quick("render a --spp 4096 -o b.exr --size=800x600 --seed 1".split()),
                          "render a -o b.exr --seed 1 --size 16x9 --spp 1".split())
+        one_pixel = "render a --pixel 640,400 --explain".split()
+        self.assertEqual(made_quick(one_pixel), one_pixel)
 
     def test_wrong_commands_are_found(self):
         self.assertIsNone(self.failure(["./run", "render", "scenes/cornell-box", "--spp", "64"]))

@@ -25,8 +25,8 @@ Rgb sum_of_contributions(const std::vector<PathEvent>& events) {
 }
 
 /// What explains the pixels of an image, made once for all of them.
-struct Setup {
-  Setup(Scene s, const std::string& integrator_name, const IntegratorOptions& options)
+struct Rendering {
+  Rendering(Scene s, const std::string& integrator_name, const IntegratorOptions& options)
       : scene(std::move(s)),
         accel(find_named(accelerators(), "embree").value()(scene.triangles, {})),
         lights(light_samplers().front().value(scene.emitters)),
@@ -43,8 +43,8 @@ struct Setup {
 };
 
 /// Explained pixels are those of the image, bit for bit, and the contributions told are all there is.
-void expect_same_pixels(const Setup& setup, const RenderSettings& settings) {
-  const Image image = render(setup.world(), *setup.integrator, settings, nullptr).image;
+void expect_same_pixels(const Rendering& rendering, const RenderSettings& settings) {
+  const Image image = render(rendering.world(), *rendering.integrator, settings, nullptr).image;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       std::uint32_t samples = 0;
@@ -52,8 +52,8 @@ void expect_same_pixels(const Setup& setup, const RenderSettings& settings) {
         EXPECT_EQ(sample.index, samples++);
         EXPECT_TRUE(same_bits(sum_of_contributions(sample.events), sample.radiance)) << x << "," << y;
       };
-      const ExplainedPixel pixel =
-          explain_pixel(setup.world(), *setup.integrator, settings, x, y, setup.strategies, check);
+      const ExplainedPixel pixel = explain_pixel(rendering.world(), *rendering.integrator, settings, x, y,
+                                                 rendering.strategies, check);
       ASSERT_EQ(samples, settings.spp);
       ASSERT_TRUE(same_bits(pixel.radiance, image.at(x, y))) << x << "," << y;
     }
@@ -69,8 +69,8 @@ TEST(Explain, PixelsAreThoseOfTheImage) {
         for (const char* scene : {"cornell-coplanar", "veach-mis"}) {
           SCOPED_TRACE(std::string(scene) + ", " + std::string(integrator.name));
           // 20 wide: pixels of the second tile as well
-          const Setup setup(test::own_scene(scene, 20, 7), std::string(integrator.name), options);
-          expect_same_pixels(setup, settings);
+          const Rendering rendering(test::own_scene(scene, 20, 7), std::string(integrator.name), options);
+          expect_same_pixels(rendering, settings);
         }
       }
     }
@@ -80,7 +80,7 @@ TEST(Explain, PixelsAreThoseOfTheImage) {
 /// The density told for the light sampling in use is the one that a sample was drawn with, and the weights
 /// are the heuristic of the densities told.
 TEST(Explain, DensitiesAndWeightsBelongTogether) {
-  const Setup setup(test::own_scene("veach-mis", 16, 9), "mis", {});
+  const Rendering rendering(test::own_scene("veach-mis", 16, 9), "mis", {});
   std::size_t lights = 0, emitters = 0;
   const auto check = [&](const ExplainedSample& sample) {
     for (const PathEvent& event : sample.events) {
@@ -101,13 +101,13 @@ TEST(Explain, DensitiesAndWeightsBelongTogether) {
   };
   for (int x = 0; x < 16; ++x) {
     for (int y = 0; y < 9; ++y) {
-      const ExplainedPixel pixel =
-          explain_pixel(setup.world(), *setup.integrator, {.spp = 4}, x, y, setup.strategies, check);
+      const ExplainedPixel pixel = explain_pixel(rendering.world(), *rendering.integrator, {.spp = 16}, x, y,
+                                                 rendering.strategies, check);
       EXPECT_EQ(pixel.invalid_samples, 0u);
     }
   }
-  EXPECT_GT(lights, 100u);
-  EXPECT_GT(emitters, 20u);
+  EXPECT_GT(lights, 400u);
+  EXPECT_GT(emitters, 40u);
 }
 
 }  // namespace
