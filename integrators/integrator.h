@@ -65,17 +65,22 @@ using IntegratorFactory = std::unique_ptr<const Integrator> (*)(const Model&, co
 [[nodiscard]] std::span<const Named<IntegratorFactory>> integrators();
 
 /// The integrator Estimator<M> for the parts of the model that a scene needs: they are constants of its code.
-/// Decides one part after the other, from the first on.
+/// Decides one part after the other, from the last on: overlays, glass, textures, smooth normals, specular.
+/// Scenes with glass or textures get the specular lobe too, needed or not, which halves their variants.
 template <template <Model> class Estimator, bool... Decided>
 [[nodiscard]] std::unique_ptr<const Integrator> for_model(const Model& model,
                                                           const IntegratorOptions& options) {
-  constexpr std::size_t parts = 3;
+  constexpr std::size_t parts = 5;
+  constexpr std::array<bool, parts> decided{Decided...};  // the last ones of Model, in its order
   if constexpr (sizeof...(Decided) == parts) {
     return std::make_unique<Estimator<Model{Decided...}>>(options);
+  } else if constexpr (sizeof...(Decided) + 1 == parts && (decided[1] || decided[2])) {
+    return for_model<Estimator, true, Decided...>(model, options);
   } else {
-    const std::array<bool, parts> needed{model.specular, model.smooth_normals, model.overlays};
-    return needed[sizeof...(Decided)] ? for_model<Estimator, Decided..., true>(model, options)
-                                      : for_model<Estimator, Decided..., false>(model, options);
+    const std::array<bool, parts> needed{model.overlays, model.glass, model.textures, model.smooth_normals,
+                                         model.specular};
+    return needed[sizeof...(Decided)] ? for_model<Estimator, true, Decided...>(model, options)
+                                      : for_model<Estimator, false, Decided...>(model, options);
   }
 }
 

@@ -137,7 +137,7 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M, Wei
     const std::optional<ScatterSample> next = vertex.sample(random);
     observer.scatter(next);
     if (!next) return {};
-    const Ray ray{vertex.origin(), next->wi};
+    const Ray ray{next->origin, next->wi};
     const std::optional<Hit> hit = seen(world.scene, ray, tracer.closest_hit(ray));
     if (!hit) return {};
     const auto first = first_emitter(world.scene, tracer, ray, hit);

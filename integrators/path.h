@@ -29,10 +29,11 @@ class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Techniq
     for (int depth = 1; hit; ++depth) {
       if constexpr (M.overlays) hit = top_of(world.scene, ray, *hit);
       if (const Emitter* emitter = emitter_at(world.scene, *hit)) {
-        // No light sample could have found what the camera sees.
+        // No light sample could have found what the camera sees, directly or through glass.
+        const bool only_path = depth == 1 || (M.glass && std::isinf(pdf_brdf.value));
         const float weight =
-            depth == 1 ? 1.0f
-                       : Technique::brdf_weight(pdf_brdf, [&] { return light_pdf(world, query, *hit); });
+            only_path ? 1.0f
+                      : Technique::brdf_weight(pdf_brdf, [&] { return light_pdf(world, query, *hit); });
         const Rgb emission = emitted(*emitter, ray.origin), contribution = throughput * emission * weight;
         observer.emitter(*hit, emission, pdf_brdf, weight, contribution);
         radiance += contribution;
@@ -46,8 +47,10 @@ class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Techniq
       const Vertex<M> vertex(world.scene, ray, *hit);
       observer.surface(*hit, vertex, throughput);
       if constexpr (Technique::kSamplesLights) {
-        query = world.lights.query(vertex.origin(), vertex.shading_normal());
-        radiance += light_sample<M, Technique>(world, vertex, query, throughput, tracer, random, observer);
+        if (!vertex.is_glass()) {
+          query = world.lights.query(vertex.origin(), vertex.shading_normal());
+          radiance += light_sample<M, Technique>(world, vertex, query, throughput, tracer, random, observer);
+        }
       }
       const std::optional<ScatterSample> next = vertex.sample(random);
       observer.scatter(next);
@@ -57,7 +60,7 @@ class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Techniq
       const bool alive = survives(q, throughput, random);
       observer.roulette(q, alive, throughput);
       if (!alive) break;
-      ray = {vertex.origin(), next->wi};
+      ray = {next->origin, next->wi};
       pdf_brdf = next->pdf;
       hit = tracer.closest_hit(ray);
     }

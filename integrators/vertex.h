@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "src/core/error_bound.h"
 #include "src/core/frame.h"
 #include "src/core/hit.h"
@@ -10,9 +12,10 @@ namespace lemma {
 
 /// A direction drawn at a vertex.
 struct ScatterSample {
-  Vec3 wi;  // unit, world space
-  PdfSolidAngle pdf;
-  Rgb weight;  // f cos(theta_i) / pdf
+  Vec3 origin;        // of a ray that leaves in this direction
+  Vec3 wi;            // unit, world space
+  PdfSolidAngle pdf;  // infinite at glass: no light sample finds the direction
+  Rgb weight;         // f cos(theta_i) / pdf
 };
 
 /// A point of a path where light is scattered: the surface as seen along a ray. Both normals are turned to
@@ -20,15 +23,19 @@ struct ScatterSample {
 template <Model M>
 class Vertex {
  public:
-  Vertex(const Scene& scene, const Ray& ray, const Hit& hit) : brdf_(scene.materials[material(scene, hit)]) {
+  Vertex(const Scene& scene, const Ray& ray, const Hit& hit)
+      : scene_(scene), hit_(hit), material_(find_material(scene, hit)), brdf_(material_) {
     const Triangle& triangle = scene.triangles[hit.triangle];
     Vec3d normal = normalize(area_vector(triangle));
-    if (dot(normal, Vec3d(ray.direction)) > 0) normal = -normal;
+    behind_ = dot(normal, Vec3d(ray.direction)) > 0;
+    if (behind_) normal = -normal;
     origin_ = offset_origin(point_at(triangle, hit.b1, hit.b2), normal, triangle);
     geometric_normal_ = Vec3(normal);
     frame_ = frame_around(find_shading_normal(scene, ray, hit));
     wo_ = frame_.to_local(-ray.direction);
   }
+  Vertex(const Vertex&) = delete;
+  Vertex& operator=(const Vertex&) = delete;
 
   /// Where rays that leave start, off the surface by its error bound; also the point from which lights are
   /// looked at.
@@ -37,31 +44,54 @@ class Vertex {
   /// Unit; light arriving from below it is not reflected.
   [[nodiscard]] const Vec3& shading_normal() const { return frame_.n; }
 
-  /// f(wo, wi) cos(theta_i) for a unit direction in world space.
+  /// Whether light goes on in single directions only, which no light sample finds.
+  [[nodiscard]] bool is_glass() const {
+    if constexpr (M.glass) return scene_.glass[material_index(scene_, hit_)].ior != 1;
+    return false;
+  }
+
+  /// f(wo, wi) cos(theta_i) for a unit direction in world space; 0 at glass, where it is a Dirac function.
   [[nodiscard]] Rgb eval_cos(const Vec3& wi) const {
-    if (!above_surface(wi)) return {};
+    if (is_glass() || !above_surface(wi)) return {};
     const Vec3 local = frame_.to_local(wi);
     return brdf_.eval(wo_, local) * std::max(local.z, 0.0f);
   }
 
   /// Density with which sample() returns wi.
   [[nodiscard]] PdfSolidAngle pdf(const Vec3& wi) const {
-    return above_surface(wi) ? brdf_.pdf(wo_, frame_.to_local(wi)) : PdfSolidAngle{0};
+    return !is_glass() && above_surface(wi) ? brdf_.pdf(wo_, frame_.to_local(wi)) : PdfSolidAngle{0};
   }
 
   /// Draws a direction by the BRDF; nothing if it absorbs.
   [[nodiscard]] std::optional<ScatterSample> sample(Sampler& random) const {
-    const float choice = M.specular ? random.next() : 0;
+    const float choice = M.specular || M.glass ? random.next() : 0;
+    if (is_glass()) return sample_glass(choice);
     const std::optional<BrdfSample> local = brdf_.sample(wo_, choice, random.next_2d());
     if (!local) return std::nullopt;
     const Vec3 wi = frame_.to_world(local->wi);
     if (!above_surface(wi)) return std::nullopt;
-    return ScatterSample{wi, local->pdf, local->weight};
+    return ScatterSample{origin_, wi, local->pdf, local->weight};
   }
 
  private:
-  static std::uint32_t material(const Scene& scene, const Hit& hit) {
+  static std::uint32_t material_index(const Scene& scene, const Hit& hit) {
     return scene.facets[hit.triangle].material;
+  }
+
+  using OwnMaterial = std::conditional_t<M.textures, Material, const Material&>;
+
+  /// The material, with the colour of its texture if it has one.
+  static OwnMaterial find_material(const Scene& scene, const Hit& hit) {
+    const std::uint32_t index = material_index(scene, hit);
+    if constexpr (M.textures) {
+      const auto& [texture, tint] = scene.texture_of[index];
+      if (texture == kNoTexture) return scene.materials[index];
+      const auto& [uv0, uv1, uv2] = scene.texcoords[hit.triangle];
+      const Vec2 uv = uv0 * (1 - hit.b1 - hit.b2) + uv1 * hit.b1 + uv2 * hit.b2;
+      return with_kd(scene.materials[index], tint * scene.textures[texture].at(uv));
+    } else {
+      return scene.materials[index];
+    }
   }
 
   /// With flat normals the two horizons are one, and the BRDF knows it.
@@ -80,10 +110,39 @@ class Vertex {
     return n * (std::copysign(1.0f, -dot(n, ray.direction)) / size);
   }
 
+  /// A mirrored or refracted direction about the shading normal; about the geometric one where the shading
+  /// normal would send the light to the other side of the surface than it says.
+  [[nodiscard]] ScatterSample sample_glass(float choice) const {
+    const Frame geometric = frame_around(geometric_normal_);
+    const DielectricSample smooth = glass_about(frame_, choice);
+    const bool passes = dot(frame_.to_world(smooth.wi), geometric_normal_) < 0;
+    const bool agree = passes == smooth.refracted;
+    const DielectricSample sample = agree ? smooth : glass_about(geometric, choice);
+    const Vec3 wi = (agree ? frame_ : geometric).to_world(sample.wi);
+    constexpr PdfSolidAngle single_direction{std::numeric_limits<float>::infinity()};
+    return {sample.refracted ? origin_behind() : origin_, wi, single_direction, sample.weight};
+  }
+
+  [[nodiscard]] DielectricSample glass_about(const Frame& frame, float choice) const {
+    Dielectric boundary = scene_.glass[material_index(scene_, hit_)];
+    if (behind_) boundary.ior = 1 / boundary.ior;  // the frame stands on the ray's side
+    return sample_dielectric(boundary, frame.to_local(frame_.to_world(wo_)), choice);
+  }
+
+  [[nodiscard]] Vec3 origin_behind() const {
+    const Triangle& triangle = scene_.triangles[hit_.triangle];
+    const Vec3d normal = normalize(area_vector(triangle)) * (behind_ ? 1.0 : -1.0);
+    return offset_origin(point_at(triangle, hit_.b1, hit_.b2), normal, triangle);
+  }
+
+  const Scene& scene_;
+  const Hit& hit_;
+  OwnMaterial material_;
+  Phong<M.specular> brdf_;
   Vec3 origin_, geometric_normal_;
   Frame frame_;
   Vec3 wo_;
-  Phong<M.specular> brdf_;
+  bool behind_ = false;  // the ray comes from the side that the winding's normal does not point to
 };
 
 }  // namespace lemma

@@ -25,6 +25,9 @@ void add_scene_options(CLI::App& app, SceneOptions& o) {
   add_choice(
       app, "--emission", emission_rules(), [&o](auto& entry) { o.load.emission = entry.value; },
       "Which materials emit");
+  add_choice(
+      app, "--textures", texture_rules(), [&o](auto& entry) { o.load.textures = entry.value; },
+      "What a texture does with the Kd of its material");
   app.add_flag("--strict", o.strict, "Take warnings about the scene for errors");
 }
 
@@ -37,9 +40,10 @@ void report_warnings(const Warnings& warnings, bool strict) {
 }
 
 std::string text_of(const LoadOptions& o) {
-  return fmt::format("--brdf {} --phong-norm {} --brdf-sampling {} --emission {}",
+  return fmt::format("--brdf {} --phong-norm {} --brdf-sampling {} --emission {} --textures {}",
                      name_of(lobes(), o.brdf.lobe), name_of(phong_norms(), o.brdf.norm),
-                     name_of(lobe_samplings(), o.brdf.sampling), name_of(emission_rules(), o.emission));
+                     name_of(lobe_samplings(), o.brdf.sampling), name_of(emission_rules(), o.emission),
+                     name_of(texture_rules(), o.textures));
 }
 
 }  // namespace lemma

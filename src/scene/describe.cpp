@@ -23,11 +23,18 @@ std::string dropped(const LoadReport& report) {
                      report.dropped_non_finite);
 }
 
+/// "no textures", "1 texture in place of Kd", "3 textures times Kd".
+std::string textures(const SceneNeeds& needs) {
+  if (needs.textures == 0) return "no textures";
+  return fmt::format("{} {} Kd", count(needs.textures, "texture"),
+                     needs.texture_rule == TextureRule::replace ? "in place of" : "times");
+}
+
 }  // namespace
 
 std::string describe(const SceneNeeds& needs) {
-  return fmt::format("{}, opaque, no textures, {} normals, {} ({})",
-                     needs.model.specular ? "Lambert + Phong" : "Lambert",
+  return fmt::format("{}, {}, {}, {} normals, {} ({})", needs.model.specular ? "Lambert + Phong" : "Lambert",
+                     needs.model.glass ? "glass" : "opaque", textures(needs),
                      needs.model.smooth_normals ? "smooth" : "flat", count(needs.lights, "light"),
                      count(needs.emitter_triangles, "triangle"));
 }

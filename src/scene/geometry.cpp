@@ -1,8 +1,12 @@
 #include "src/scene/geometry.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
 #include <utility>
 
+#include "src/scene/glass.h"
 #include "src/scene/obj_shape.h"
 
 namespace lemma {
@@ -54,11 +58,66 @@ Triangle facing(Triangle shape, const VertexNormals& normals) {
   return shape;
 }
 
+bool has_texture(const MtlMaterial& m) {
+  return !m.map_kd.empty();
+}
+
+Vec2 texcoord(const ObjFile& obj, std::uint32_t index) {
+  const Vec2 none(0);
+  if (index == kNoIndex) return none;
+  const Vec2 given = obj.texcoords[index];
+  return std::isfinite(given.x) ? given : none;
+}
+
+bool has_texcoords(const ObjFile& obj, const ObjTriangle& t) {
+  return std::ranges::all_of(t.texcoord, [&](std::uint32_t index) {
+    return index != kNoIndex && std::isfinite(obj.texcoords[index].x);
+  });
+}
+
+std::array<Vec2, 3> texcoords_of(const ObjFile& obj, const ObjTriangle& t) {
+  return {texcoord(obj, t.texcoord[0]), texcoord(obj, t.texcoord[1]), texcoord(obj, t.texcoord[2])};
+}
+
+/// Copies of materials for triangles that these do not fit, each made once.
+class MaterialCopies {
+ public:
+  explicit MaterialCopies(std::vector<MtlMaterial>& materials) : materials_(materials) {}
+
+  std::uint32_t find(std::uint32_t of, bool inside_out, bool untextured) {
+    const auto [entry, is_new] = copies_.try_emplace(std::tuple(of, inside_out, untextured),
+                                                     static_cast<std::uint32_t>(materials_.size()));
+    if (is_new) {
+      MtlMaterial copy = materials_[of];
+      copy.inside_out = inside_out;
+      if (untextured && is_black(copy.kd)) copy.kd = kGrey;
+      if (untextured) copy.map_kd.clear();
+      materials_.push_back(std::move(copy));
+    }
+    return entry->second;
+  }
+
+ private:
+  std::vector<MtlMaterial>& materials_;
+  std::map<std::tuple<std::uint32_t, bool, bool>, std::uint32_t> copies_;
+};
+
+/// Takes the memory at once: a vector that grows holds everything twice for a while.
+void reserve(std::size_t triangles, bool textured, Scene& scene) {
+  scene.triangles.reserve(triangles);
+  scene.facets.reserve(triangles);
+  scene.normals.reserve(triangles);
+  if (textured) scene.texcoords.reserve(triangles);
+}
+
 }  // namespace
 
-void build_geometry(const ObjFile& obj, const MaterialTable& materials, const LightList& lights, Scene& scene,
+void build_geometry(const ObjFile& obj, const LightList& lights, MaterialTable& materials, Scene& scene,
                     LoadReport& report) {
+  const bool textured = std::ranges::any_of(materials.materials, has_texture);
+  MaterialCopies copies(materials.materials);
   report.triangles_read = obj.triangles.size();
+  reserve(obj.triangles.size(), textured, scene);
   for (const ObjTriangle& t : obj.triangles) {
     const Triangle shape = shape_of(obj, t);
     const Soundness soundness = soundness_of(shape);
@@ -73,9 +132,15 @@ void build_geometry(const ObjFile& obj, const MaterialTable& materials, const Li
                                 .radiance = lights.lights[light].radiance,
                                 .triangle = static_cast<std::uint32_t>(scene.triangles.size()),
                                 .light = light});
-    } else if (!normals.flat) {
-      scene.needs.model.smooth_normals = true;
+    } else {
+      scene.needs.model.smooth_normals |= !normals.flat;
+      const MtlMaterial& material = materials.materials[facet.material];
+      const bool inside_out = normals.oppose_winding && is_glass(material);
+      const bool untextured = has_texture(material) && !has_texcoords(obj, t);
+      report.without_texcoords += untextured ? 1 : 0;
+      if (inside_out || untextured) facet.material = copies.find(facet.material, inside_out, untextured);
     }
+    if (textured) scene.texcoords.push_back(texcoords_of(obj, t));
     scene.triangles.push_back(shape);
     scene.facets.push_back(facet);
     scene.normals.push_back(normals.normals);

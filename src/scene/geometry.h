@@ -7,9 +7,12 @@
 
 namespace lemma {
 
-/// Fills in triangles, facets, normals and emitters of `scene`, and whether it needs vertex normals; counts
-/// in `report` what was read and dropped. Emitters carry the numbers of `lights`.
-void build_geometry(const ObjFile& obj, const MaterialTable& materials, const LightList& lights, Scene& scene,
+/// Fills in triangles, facets, normals, texture coordinates and emitters of `scene`, and whether it needs
+/// vertex normals; counts in `report` what was read and dropped. Emitters carry the numbers of `lights`.
+/// Triangles that a material does not fit get a copy of it, which is appended to `materials`: without its
+/// texture where they have no texture coordinates, and with `inside_out` where they are glass whose winding
+/// opposes their vertex normals.
+void build_geometry(const ObjFile& obj, const LightList& lights, MaterialTable& materials, Scene& scene,
                     LoadReport& report);
 
 }  // namespace lemma

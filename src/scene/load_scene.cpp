@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "src/scene/geometry.h"
+#include "src/scene/glass.h"
 #include "src/scene/light_list.h"
 #include "src/scene/material_table.h"
+#include "src/scene/material_textures.h"
 #include "src/scene/read_obj.h"
 #include "src/scene/read_xml.h"
 #include "src/scene/scene_files.h"
@@ -22,11 +24,20 @@ std::vector<bool> find_reflecting(const Scene& scene, std::size_t materials) {
   return reflects;
 }
 
-bool any_specular(const std::vector<Material>& materials, const std::vector<bool>& reflects) {
+bool any_specular(const std::vector<MtlMaterial>& materials, const std::vector<bool>& reflects) {
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (reflects[i] && !is_black(materials[i].ks)) return true;
+    if (reflects[i] && !is_glass(materials[i]) && !is_black(materials[i].ks)) return true;
   }
   return false;
+}
+
+/// The boundaries of glass, if a triangle has one.
+void find_glass(const std::vector<MtlMaterial>& materials, const std::vector<bool>& shown, Scene& scene) {
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    scene.needs.model.glass |= shown[i] && is_glass(materials[i]);
+    scene.glass.push_back(glass_of(materials[i]));
+  }
+  if (!scene.needs.model.glass) scene.glass.clear();
 }
 
 }  // namespace
@@ -42,11 +53,11 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   ObjFile obj = read_obj(files.obj, report.warnings);
   add_spheres(xml.spheres, obj);
   report.mtl = find_mtl_files(files.obj, obj.libraries, report.warnings);
-  const MaterialTable table = read_materials(report.mtl, obj.materials, report.warnings);
+  MaterialTable table = read_materials(report.mtl, obj.materials, report.warnings);
   const LightList lights = find_lights(xml, table.materials, options.emission, report.warnings);
 
   scene.view = xml.view;
-  build_geometry(obj, table, lights, scene, report);
+  build_geometry(obj, lights, table, scene, report);
   if (scene.triangles.empty()) {
     throw SceneError({files.obj},
                      fmt::format("no triangle can be rendered, of {} read", report.triangles_read),
@@ -58,7 +69,15 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   scene.materials = make_materials(table.materials, reflects, options.brdf, report.warnings);
   scene.overlays = find_overlays(scene.triangles, scene.emitters);
   scene.needs.model.overlays = !scene.overlays.empty();
-  scene.needs.model.specular = any_specular(scene.materials, reflects);
+  scene.needs.model.specular = any_specular(table.materials, reflects);
+  find_glass(table.materials, reflects, scene);
+  load_textures(table.materials, reflects, files.obj, options.textures, scene, report.warnings);
+  if (report.without_texcoords > 0) {
+    warn(report.warnings, {files.obj},
+         fmt::format(
+             "{} triangles with a texture have no texture coordinates; Kd stands in its place, or grey 0.5",
+             report.without_texcoords));
+  }
   return loaded;
 }
 

@@ -6,66 +6,38 @@
 #include <iterator>
 #include <unordered_map>
 
+#include "src/scene/glass.h"
+
 namespace lemma {
 namespace {
 
-constexpr Rgb kGrey{0.5f, 0.5f, 0.5f};  // where nothing better is known
-constexpr float kAlbedoSlack = 1e-5f;   // 0.2 + 0.8 is not exactly 1 in float
+constexpr float kAlbedoSlack = 1e-5f;  // 0.2 + 0.8 is not exactly 1 in float
 
-using MaterialTest = bool (*)(const MtlMaterial&);
-
-bool is_textured(const MtlMaterial& m) {
-  return !m.map_kd.empty();
-}
 bool is_textured_black(const MtlMaterial& m) {
-  return is_textured(m) && is_black(m.kd);
-}
-bool is_textured_colour(const MtlMaterial& m) {
-  return is_textured(m) && !is_black(m.kd);
-}
-bool is_glass(const MtlMaterial& m) {
-  return m.ni > 1;
+  return !m.map_kd.empty() && is_black(m.kd);
 }
 bool gains_energy(const MtlMaterial& m) {
   return max_channel(m.kd + m.ks) > 1 + kAlbedoSlack;
 }
 
-/// The materials that reflect and pass a test: where the first is defined, and all names.
+/// Some of the materials: where the first is defined, and all names.
 struct Selection {
   FilePosition where;
   std::vector<std::string> names;
 };
 
-Selection select(const std::vector<MtlMaterial>& materials, const std::vector<bool>& reflects,
-                 MaterialTest test) {
-  Selection selection;
+void warn_of_gain(const std::vector<MtlMaterial>& materials, const std::vector<bool>& reflects,
+                  Warnings& warnings) {
+  Selection bright;
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (!reflects[i] || !test(materials[i])) continue;
-    if (selection.names.empty()) selection.where = materials[i].where;
-    selection.names.push_back(materials[i].name);
+    const MtlMaterial& m = materials[i];
+    if (!reflects[i] || is_glass(m) || !gains_energy(m)) continue;
+    if (bright.names.empty()) bright.where = m.where;
+    if (bright.names.empty() || bright.names.back() != m.name) bright.names.push_back(m.name);
   }
-  return selection;
-}
-
-void warn_of_limits(const std::vector<MtlMaterial>& materials, const std::vector<bool>& reflects,
-                    Warnings& warnings) {
-  if (const Selection all = select(materials, reflects, is_textured); !all.names.empty()) {
-    std::string what = "textures are left out:";
-    const std::string colour = join_names(select(materials, reflects, is_textured_colour).names);
-    const std::string black = join_names(select(materials, reflects, is_textured_black).names);
-    if (!colour.empty()) what += fmt::format(" the Kd of {} is used", colour);
-    if (!colour.empty() && !black.empty()) what += ";";
-    if (!black.empty()) what += fmt::format(" grey 0.5 stands for {}, whose Kd is 0", black);
-    warn(warnings, all.where, what);
-  }
-  if (const Selection glass = select(materials, reflects, is_glass); !glass.names.empty()) {
-    warn(warnings, glass.where,
-         fmt::format("glass (Ni > 1) is rendered as opaque: {}", join_names(glass.names)));
-  }
-  if (const Selection bright = select(materials, reflects, gains_energy); !bright.names.empty()) {
-    warn(warnings, bright.where,
-         fmt::format("Kd + Ks > 1: more light leaves than arrives, of {}", join_names(bright.names)));
-  }
+  if (bright.names.empty()) return;
+  warn(warnings, bright.where,
+       fmt::format("Kd + Ks > 1: more light leaves than arrives, of {}", join_names(bright.names)));
 }
 
 }  // namespace
@@ -104,7 +76,7 @@ MaterialTable read_materials(const std::vector<std::filesystem::path>& mtl_files
 std::vector<Material> make_materials(const std::vector<MtlMaterial>& materials,
                                      const std::vector<bool>& reflects, const BrdfOptions& brdf,
                                      Warnings& warnings) {
-  warn_of_limits(materials, reflects, warnings);
+  warn_of_gain(materials, reflects, warnings);
   std::vector<Material> made;
   made.reserve(materials.size());
   for (const MtlMaterial& m : materials) {

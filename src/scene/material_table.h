@@ -10,6 +10,8 @@
 
 namespace lemma {
 
+inline constexpr Rgb kGrey{0.5f, 0.5f, 0.5f};  // where nothing better is known
+
 /// All materials of a scene, and which of them the names in the OBJ mean.
 struct MaterialTable {
   std::vector<MtlMaterial>
@@ -22,8 +24,8 @@ struct MaterialTable {
 [[nodiscard]] MaterialTable read_materials(const std::vector<std::filesystem::path>& mtl_files,
                                            const std::vector<ObjName>& names, Warnings& warnings);
 
-/// What the materials reflect. Not modelled, and warned of once each: textures (Kd is used, or a grey of 0.5
-/// where Kd is 0), glass (Ni > 1 is opaque). Warned of once, but used as it is: Kd + Ks > 1.
+/// What the materials reflect; of those with a texture, what stands in its place where there is none: Kd, or
+/// a grey of 0.5 if Kd is black. Warned of once, but used as it is: Kd + Ks > 1.
 /// @param reflects  of each material whether a triangle reflects by it; the others are not warned of
 [[nodiscard]] std::vector<Material> make_materials(const std::vector<MtlMaterial>& materials,
                                                    const std::vector<bool>& reflects, const BrdfOptions& brdf,

@@ -23,6 +23,7 @@ struct MtlMaterial {
   std::vector<float> illum;  // illumination model
   std::string map_kd;
   FilePosition map_kd_where;
+  bool inside_out = false;  // of glass: the side that the winding's normal points to is the inner one
 };
 
 /// Reads Ka, Kd, Ks, Ke (one number is a grey), Ns, Ni, Tr, d, illum and map_Kd of each material, in file

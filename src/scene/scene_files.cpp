@@ -76,22 +76,32 @@ fs::path companion(const fs::path& file, std::string_view extension) {
   return only_file(folder, extension, file);
 }
 
-/// A file that a name of the OBJ led to.
-struct FoundFile {
-  fs::path path;
-  bool as_written = false;
-};
-
-std::optional<FoundFile> find_named(const fs::path& folder, const std::string& name) {
-  if (is_file(folder / name)) return FoundFile{folder / name, true};
-  std::string slashes = name;
-  std::replace(slashes.begin(), slashes.end(), '\\', '/');
-  if (is_file(folder / slashes)) return FoundFile{folder / slashes};
-  const fs::path base = fs::path(slashes).filename();
-  for (const fs::path& file : list_files(folder, lower_case(base.extension().string()))) {
-    if (lower_case(file.filename().string()) == lower_case(base.string())) return FoundFile{file};
+/// The entry of a folder that has a name in whatever case, the first by name; nothing if there is none.
+std::optional<fs::path> find_entry(const fs::path& folder, const fs::path& name) {
+  std::optional<fs::path> found;
+  std::error_code error;
+  fs::directory_iterator entry(folder.empty() ? "." : folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const fs::path other = entry->path().filename();
+    if (lower_case(other.string()) == lower_case(name.string()) && (!found || other < *found)) found = other;
   }
-  return std::nullopt;
+  if (!found) return std::nullopt;
+  return folder / *found;
+}
+
+/// A file below a folder, each part of its name in whatever case.
+std::optional<fs::path> find_ignoring_case(const fs::path& folder, const fs::path& name) {
+  fs::path path = folder;
+  for (const fs::path& part : name) {
+    if (std::error_code error; fs::exists(path / part, error)) {
+      path /= part;
+    } else if (const auto entry = find_entry(path, part)) {
+      path = *entry;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return is_file(path) ? std::optional(path) : std::nullopt;
 }
 
 /// "a.mtl b\ c.mtl" -> "a.mtl", "b c.mtl".
@@ -134,6 +144,15 @@ SceneError neither(const fs::path& scene) {
 
 }  // namespace
 
+std::optional<FoundFile> find_file(const fs::path& folder, const std::string& name) {
+  if (is_file(folder / name)) return FoundFile{folder / name, true};
+  std::string slashes = name;
+  std::replace(slashes.begin(), slashes.end(), '\\', '/');
+  if (const auto file = find_ignoring_case(folder, slashes)) return FoundFile{*file};
+  if (const auto file = find_ignoring_case(folder, fs::path(slashes).filename())) return FoundFile{*file};
+  return std::nullopt;
+}
+
 SceneFiles find_scene_files(const fs::path& scene) {
   require_existence(scene);
   std::error_code error;
@@ -162,12 +181,12 @@ std::vector<fs::path> find_mtl_files(const fs::path& obj, const std::vector<ObjN
   std::vector<fs::path> files;
   std::vector<ObjName> missing;
   for (const auto& [text, where] : libraries) {
-    if (const auto whole = find_named(folder, text)) {  // one name, perhaps with blanks
+    if (const auto whole = find_file(folder, text)) {  // one name, perhaps with blanks
       add_file(*whole, text, where, files, warnings);
       continue;
     }
     for (const std::string& name : split_names(text)) {
-      if (const auto found = find_named(folder, name)) {
+      if (const auto found = find_file(folder, name)) {
         add_file(*found, name, where, files, warnings);
       } else {
         missing.push_back({in_quotes(name), where});

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,9 +25,19 @@ struct SceneFiles {
 /// @throw SceneError if there is none, or more than one to choose from
 [[nodiscard]] std::filesystem::path find_obj(const std::filesystem::path& scene);
 
-/// The MTL files that the mtllib lines of an OBJ mean, each once. A name is taken as written, relative to the
-/// OBJ; else with '/' for '\', else its last part beside the OBJ, in whatever case; and if no file is found
-/// at all, the only MTL of the folder. All but the first are warned of, and so is a name without a file.
+/// A file that a name in a scene led to.
+struct FoundFile {
+  std::filesystem::path path;
+  bool as_written = false;
+};
+
+/// The file that a name means, as written, relative to a folder; else with '/' for '\' and in whatever case;
+/// else its last part in the folder itself, in whatever case.
+[[nodiscard]] std::optional<FoundFile> find_file(const std::filesystem::path& folder,
+                                                 const std::string& name);
+
+/// The MTL files that the mtllib lines of an OBJ mean, each once, by find_file(); if none is found at all,
+/// the only MTL of the folder. All but the first are warned of, and so is a name without a file.
 [[nodiscard]] std::vector<std::filesystem::path> find_mtl_files(const std::filesystem::path& obj,
                                                                 const std::vector<ObjName>& libraries,
                                                                 Warnings& warnings);

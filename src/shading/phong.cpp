@@ -43,17 +43,29 @@ std::optional<BrdfSample> sample_mixture(const Material& m, const SomeLobe& lobe
   return BrdfSample{wi, {density}, value(m, cos_n) * (wi.z / density)};
 }
 
+/// The choice of p6: by the channel sums.
+float diffuse_probability(const Rgb& kd, const Rgb& ks) {
+  const float diffuse = channel_sum(kd), specular = channel_sum(ks);
+  return specular > 0 ? diffuse / (diffuse + specular) : 1.0f;
+}
+
 }  // namespace
 
+Material with_kd(const Material& material, const Rgb& kd) {
+  Material other = material;
+  other.kd = kd;
+  other.diffuse_probability = diffuse_probability(kd, material.ks);
+  return other;
+}
+
 Material make_material(const Rgb& kd, const Rgb& ks, float exponent, const BrdfOptions& options) {
-  const float diffuse = channel_sum(kd), specular = channel_sum(ks);
   return {.kd = kd,
           .ks = ks,
           .exponent = exponent,
           .lobe = options.lobe,
           .sampling = options.sampling,
           .specular_factor = specular_factor(exponent, options),
-          .diffuse_probability = specular > 0 ? diffuse / (diffuse + specular) : 1.0f};
+          .diffuse_probability = diffuse_probability(kd, ks)};
 }
 
 float largest_albedo(const Material& m) {

@@ -26,6 +26,9 @@ struct Material {
 [[nodiscard]] Material make_material(const Rgb& kd, const Rgb& ks, float exponent,
                                      const BrdfOptions& options = {});
 
+/// The material with another diffuse albedo, as a texture gives it.
+[[nodiscard]] Material with_kd(const Material& material, const Rgb& kd);
+
 /// The part of the light that the material reflects at most, over channels and directions: that at normal
 /// incidence.
 [[nodiscard]] float largest_albedo(const Material& material);
