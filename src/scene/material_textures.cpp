@@ -33,11 +33,13 @@ class TextureLoader {
       warn(warnings_, m.map_kd_where,
            fmt::format("there is no {}; {} is used", in_quotes(m.map_kd), image->path.filename().string()));
     }
-    const auto [entry, is_new] = index_.try_emplace(image->path, kNoTexture);
-    if (is_new) entry->second = read(image->path);
+    std::error_code error;
+    const fs::path file = fs::canonical(image->path, error);  // one image may have several names
+    const auto [entry, is_new] = index_.try_emplace(error ? image->path : file, kNoTexture);
+    if (is_new) entry->second = read(entry->first);
     if (entry->second != kNoTexture) return entry->second;
     return fall_back(
-        m, fmt::format("the texture {} cannot be read: {}", in_quotes(m.map_kd), why_not_[image->path]));
+        m, fmt::format("the texture {} cannot be read: {}", in_quotes(m.map_kd), why_not_[entry->first]));
   }
 
  private:

@@ -38,9 +38,9 @@ bool is_linear(const OIIO::ImageSpec& spec) {
 }
 
 /// The first three channels of an image as linear colours; a single one three times.
-OIIO::ImageBuf linear_colours(const OIIO::ImageBuf& image) {
+OIIO::ImageBuf linear_colours(const OIIO::ImageBuf& image, bool linear) {
   const OIIO::ImageSpec& spec = image.spec();
-  const bool grey = spec.nchannels < kChannels, linear = is_linear(spec);
+  const bool grey = spec.nchannels < kChannels;
   OIIO::ImageBuf colours(OIIO::ImageSpec(spec.width, spec.height, kChannels, OIIO::TypeDesc::HALF));
   OIIO::ImageBuf::ConstIterator<float> from(image);
   // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign): within the library's iterator
@@ -60,13 +60,10 @@ Texture::Texture(const std::filesystem::path& file) {
   OIIO::ImageBuf image(file.string());
   if (!image.init_spec(file.string(), 0, 0)) throw TextureError(first_line(image.geterror()));
   require_room(image.spec());
+  const bool linear = is_linear(image.spec());  // before it becomes one of floats
   if (!image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) throw TextureError(first_line(image.geterror()));
-  pixels_ = std::make_unique<const Pixels>(Pixels{linear_colours(image)});
+  pixels_ = std::make_shared<const Pixels>(Pixels{linear_colours(image, linear)});
 }
-
-Texture::Texture(Texture&&) noexcept = default;
-Texture& Texture::operator=(Texture&&) noexcept = default;
-Texture::~Texture() = default;
 
 Rgb Texture::at(const Vec2& uv) const {
   const float u = uv.x - std::floor(uv.x), v = uv.y - std::floor(uv.y);

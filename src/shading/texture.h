@@ -24,9 +24,6 @@ class Texture {
   /// values become 0). A single channel is a grey; alpha is left out.
   /// @throw TextureError if the file cannot be read, or needs more than a part of the machine's memory
   explicit Texture(const std::filesystem::path& file);
-  Texture(Texture&&) noexcept;
-  Texture& operator=(Texture&&) noexcept;
-  ~Texture();
 
   /// @param uv  finite; (0, 0) is the lower left corner of the image, (1, 1) the upper right
   [[nodiscard]] Rgb at(const Vec2& uv) const;
@@ -37,7 +34,7 @@ class Texture {
 
  private:
   struct Pixels;
-  std::unique_ptr<const Pixels> pixels_;
+  std::shared_ptr<const Pixels> pixels_;  // copies share them
 };
 
 }  // namespace lemma

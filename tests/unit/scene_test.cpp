@@ -273,34 +273,132 @@ TEST_F(LoadScene, TransmittanceOfTheCourseIsNotDissolve) {
   const auto [scene, report] =
       load_mtl("newmtl wall\nKd 0.5 0.5 0.5\nTr 1 1 1\nNi 1\nnewmtl lamp\nTr 1 1 1\n");
   EXPECT_EQ(scene.materials[0].kd, (Rgb{0.5f, 0.5f, 0.5f}));
+  EXPECT_FALSE(scene.needs.model.glass);
+  EXPECT_TRUE(scene.glass.empty());
   EXPECT_TRUE(report.warnings.empty());
 }
 
-constexpr std::string_view kFiveMaterials =
-    "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl lamp\nf 1 2 3\n";
-
-TEST_F(LoadScene, TexturesAreReplacedWithOneWarning) {
-  const auto [scene, report] = load(
-      lit(), std::string(kVertices).append(kFiveMaterials),
-      "newmtl a\nKd 0.1 0.1 0.1\nmap_Kd x.jpg\nnewmtl b\nKd 0 0 0\nmap_Kd y.jpg\nnewmtl c\nmap_Kd z.jpg\n"
-      "newmtl lamp\nmap_Kd x.jpg\nnewmtl unused\nmap_Kd x.jpg\n");
-  EXPECT_EQ(scene.materials[0].kd, (Rgb{0.1f, 0.1f, 0.1f}));
-  EXPECT_EQ(scene.materials[1].kd, (Rgb{0.5f, 0.5f, 0.5f}));
-  EXPECT_EQ(scene.materials[2].kd, (Rgb{0.5f, 0.5f, 0.5f}));
-  EXPECT_EQ(report.warnings,
-            Lines{"FOLDER/a.mtl:1: warning: textures are left out: the Kd of a is used; grey 0.5 "
-                  "stands for b, c, whose Kd is 0"});
+TEST_F(LoadScene, GlassNeedsAnIndexAndNothingThatSaysOpaque) {
+  const auto glass = [&](const std::string& lines) {
+    const Scene scene = load_mtl("newmtl wall\n" + lines + "\nnewmtl lamp\n").scene;
+    return scene.needs.model.glass ? scene.glass[0] : Dielectric{};
+  };
+  const auto expect_glass = [&](const std::string& lines, const Rgb& transmittance) {
+    EXPECT_EQ(glass(lines).ior, 1.5f) << lines;
+    EXPECT_EQ(glass(lines).transmittance, transmittance) << lines;
+  };
+  expect_glass("Ni 1.5\nTr 0.8 1 0.95", {0.8f, 1, 0.95f});
+  expect_glass("Ni 1.5\nTr 0.8 1 0.95\nd 1\nillum 2", {0.8f, 1, 0.95f});
+  expect_glass("Ni 1.5\nTr 0.75", {0.75f, 0.75f, 0.75f});
+  expect_glass("Ni 1.5\nd 0.25", {0.75f, 0.75f, 0.75f});
+  expect_glass("Ni 1.5", {1, 1, 1});
+  expect_glass("Ni 1.5\nillum 7", {1, 1, 1});
+  for (const char* opaque : {"Ni 1", "Tr 0.8 1 0.95", "Ni 1\nTr 0.5", "Ni 0.9\nTr 1 1 1", "Ni 1.5\nd 1",
+                             "Ni 1.5\nTr 0", "Ni 1.5\nTr 0 0 0", "Ni 1.5\nillum 2", "Ni 1.5\nTr 0\nd 0.5"}) {
+    EXPECT_EQ(glass(opaque).ior, 1.0f) << opaque;
+  }
 }
 
-TEST_F(LoadScene, GlassAndBrightMaterialsAreWarnedOfOnce) {
-  const auto [scene, report] = load(lit(), std::string(kVertices).append(kFiveMaterials),
-                                    "newmtl a\nKd 0.8 0 0\nKs 0.2 0 0\nNi 1\nnewmtl b\nKd 0.8 0 0\nKs 0.3 0 "
-                                    "0\nNi 1.5\nnewmtl c\nKd 2 0 0\nNi 1.1\n"
-                                    "newmtl lamp\nKd 9 9 9\nNi 2\n");
+TEST_F(LoadScene, GlassIsInsideOutWhereTheWindingOpposesTheNormals) {
+  const Scene scene = load(lit(),
+                           std::string(kVertices) +
+                               "vn 0 0 1\nvn 0 0 -1\nusemtl glass\nf 1//1 2//1 3//1\n"
+                               "f 1//2 2//2 3//2\nf 1 2 3\nusemtl lamp\nf 1 2 3\n",
+                           "newmtl glass\nNi 2\nnewmtl lamp\n")
+                          .scene;
+  const auto ior = [&](std::size_t triangle) { return scene.glass[scene.facets[triangle].material].ior; };
+  EXPECT_EQ(ior(0), 2.0f);
+  EXPECT_EQ(ior(1), 0.5f);
+  EXPECT_EQ(ior(2), 2.0f) << "no normals: the winding";
+  EXPECT_EQ(scene.materials.size(), 3u);
+}
+
+constexpr std::string_view kFourMaterials =
+    "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl lamp\nf 1 2 3\n";
+
+TEST_F(LoadScene, BrightMaterialsAreWarnedOfOnce) {
+  const auto [scene, report] = load(lit(), std::string(kVertices).append(kFourMaterials),
+                                    "newmtl a\nKd 0.8 0 0\nKs 0.2 0 0\nnewmtl b\nKd 0.8 0 0\nKs 0.3 0 "
+                                    "0\nnewmtl c\nKd 2 0 0\nnewmtl lamp\nKd 9 9 9\n");
   EXPECT_EQ(scene.materials[2].kd, (Rgb{2, 0, 0})) << "used as it is";
   EXPECT_EQ(report.warnings,
-            (Lines{"FOLDER/a.mtl:5: warning: glass (Ni > 1) is rendered as opaque: b, c",
-                   "FOLDER/a.mtl:5: warning: Kd + Ks > 1: more light leaves than arrives, of b, c"}));
+            Lines{"FOLDER/a.mtl:4: warning: Kd + Ks > 1: more light leaves than arrives, of b, c"});
+}
+
+/// One pixel each: red is (255, 0, 0).
+constexpr std::string_view kRed = "P3\n1 1\n255\n255 0 0\n";
+const std::string kTextured =
+    std::string(kVertices) +
+    "vt 0 0\nvt 1 0\nvt 1 1\nusemtl wall\nf 1/1 2/2 3/3\nusemtl lamp\nf 1/1 2/2 3/3\n";
+
+TEST_F(LoadScene, TexturesReplaceKdOrAreMultipliedWithIt) {
+  folder_.write("red.ppm", kRed);
+  constexpr std::string_view mtl =
+      "newmtl wall\nKd 0.5 0.25 0.5\nmap_Kd red.ppm\nnewmtl lamp\nmap_Kd none.ppm\n";
+  const auto replaced = load(lit(), kTextured, mtl);
+  EXPECT_TRUE(replaced.report.warnings.empty()) << "a light shows no texture";
+  ASSERT_EQ(replaced.scene.textures.size(), 1u);
+  EXPECT_EQ(replaced.scene.texture_of[0].texture, 0u);
+  EXPECT_EQ(replaced.scene.texture_of[0].tint, (Rgb{1, 1, 1}));
+  EXPECT_EQ(replaced.scene.texture_of[1].texture, kNoTexture);
+  EXPECT_EQ(replaced.scene.texcoords[0][1], Vec2(1, 0));
+  EXPECT_EQ(describe(replaced.scene.needs),
+            "Lambert, opaque, 1 texture in place of Kd, flat normals, 1 light (1 triangle)");
+  options_.textures = TextureRule::multiply;
+  const auto multiplied = load(lit(), kTextured, mtl);
+  EXPECT_EQ(multiplied.scene.texture_of[0].tint, (Rgb{0.5f, 0.25f, 0.5f}));
+  EXPECT_EQ(describe(multiplied.scene.needs),
+            "Lambert, opaque, 1 texture times Kd, flat normals, 1 light (1 triangle)");
+}
+
+TEST_F(LoadScene, OneImageIsReadOnce) {
+  folder_.write("images/Red.PPM", kRed);
+  const auto [scene, report] =
+      load(lit(),
+           std::string(kVertices) +
+               "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1/1 2/1 3/1\nusemtl lamp\nf 1 2 3\n",
+           "newmtl a\nmap_Kd images/Red.PPM\nnewmtl b\nmap_Kd .\\images\\red.ppm\nnewmtl lamp\n");
+  EXPECT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(report.warnings,
+            Lines{"FOLDER/a.mtl:4: warning: there is no \".\\images\\red.ppm\"; Red.PPM is used"});
+}
+
+TEST_F(LoadScene, MissingAndBrokenTexturesLeaveKd) {
+  folder_.write("broken.ppm", "no image");
+  const auto [scene, report] =
+      load(lit(),
+           std::string(kVertices) +
+               "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1/1 2/1 3/1\nusemtl lamp\nf 1 2 3\n",
+           "newmtl a\nKd 0.1 0.1 0.1\nmap_Kd x.jpg\nnewmtl b\nKd 0 0 0\nmap_Kd broken.ppm\nnewmtl lamp\n");
+  EXPECT_FALSE(scene.needs.model.textures);
+  EXPECT_TRUE(scene.texcoords.empty());
+  EXPECT_EQ(scene.materials[0].kd, (Rgb{0.1f, 0.1f, 0.1f}));
+  EXPECT_EQ(scene.materials[1].kd, (Rgb{0.5f, 0.5f, 0.5f}));
+  ASSERT_EQ(report.warnings.size(), 2u);
+  EXPECT_EQ(report.warnings[0],
+            "FOLDER/a.mtl:3: warning: there is no texture \"x.jpg\"; Kd stands in its place");
+  EXPECT_TRUE(
+      report.warnings[1].starts_with("FOLDER/a.mtl:6: warning: the texture \"broken.ppm\" cannot be read: "));
+  EXPECT_TRUE(report.warnings[1].ends_with("; grey 0.5 stands in its place"));
+}
+
+TEST_F(LoadScene, TrianglesWithoutTextureCoordinatesHaveNoTexture) {
+  folder_.write("red.ppm", kRed);
+  const auto [scene, report] =
+      load(lit(),
+           std::string(kVertices) +
+               "vt 0 0\nvt nan 0\nusemtl wall\nf 1/1 2/1 3/1\nf 1 2 3\nf 1/1 2/2 3/1\nusemtl lamp\nf 1 2 3\n",
+           "newmtl wall\nmap_Kd red.ppm\nnewmtl lamp\n");
+  const auto texture = [&](std::size_t t) { return scene.texture_of[scene.facets[t].material].texture; };
+  EXPECT_EQ(texture(0), 0u);
+  EXPECT_EQ(texture(1), kNoTexture);
+  EXPECT_EQ(texture(2), kNoTexture);
+  EXPECT_EQ(scene.materials[scene.facets[1].material].kd, (Rgb{0.5f, 0.5f, 0.5f}));
+  ASSERT_EQ(report.warnings.size(), 2u);
+  EXPECT_EQ(report.warnings[1],
+            "FOLDER/a.obj: warning: 2 triangles with a texture have no texture coordinates; Kd stands in its "
+            "place, or "
+            "grey 0.5");
 }
 
 TEST_F(LoadScene, NoEmitters) {
