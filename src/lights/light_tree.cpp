@@ -5,7 +5,6 @@
 
 #include "src/lights/light_split.h"
 #include "src/lights/sphere_cone.h"
-#include "src/lights/spherical_triangle.h"
 
 namespace lemma {
 namespace {
@@ -97,7 +96,8 @@ class LightTree::Builder {
   LightTree& tree_;
 };
 
-LightTree::LightTree(std::span<const Emitter> emitters) : emitters_(emitters) {
+LightTree::LightTree(std::span<const Emitter> emitters)
+    : emitters_(emitters), views_(emitters.begin(), emitters.end()) {
   for (WholeLight& light : find_whole_lights(emitters)) {
     BodyMesh mesh(emitters, light);
     wholes_.push_back({std::move(light), std::move(mesh)});
@@ -113,37 +113,20 @@ bool LightTree::is_light(const Node& node, const Vec3& x) const {
   return SphereCone(whole.centre, whole.radius, x).can_be_sampled();
 }
 
-namespace {
-
-/// Luminance x solid angle x cosine at the surface, nearly; 0 only if the emitter cannot contribute. In
-/// float32, with the formula of SphericalTriangle and the mean of max(0, cosine) at the vertices.
-double importance_of(const Emitter& emitter, const LightQuery& at) {
-  constexpr float least = 1e-30f;  // nothing that can be seen underflows to 0 ...
-  constexpr float slack = 1e-6f;   // ... or falls below the horizon, of cosines that err by less than this
-  const double side = side_of(emitter.shape, at.x);
-  if (!(side > 0)) return 0;
-  const Vec3 a = emitter.shape.v0 - at.x, b = emitter.shape.v1 - at.x, c = emitter.shape.v2 - at.x;
-  const float la = length(a), lb = length(b), lc = length(c);
-  const auto cosine = [&](const Vec3& v, float size) { return std::max(dot(at.n, v) / size + slack, 0.0f); };
-  const float cosines = cosine(a, la) + cosine(b, lb) + cosine(c, lc);
-  if (cosines == 0) return 0;
-  const float solid_angle = 2 * std::atan2(std::max(static_cast<float>(side), least),
-                                           la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-  return double{luminance(emitter.radiance)} * std::max(solid_angle, least) * (cosines / 3);
-}
-
-}  // namespace
-
 /// Luminance x solid angle x cosine at the surface: of a light nearly exactly, of other nodes an estimate. 0
 /// only if no emitter of the node can contribute.
 double LightTree::importance(const Node& node, const LightQuery& at) const {
-  const Vec3d n(at.n);
-  if (node.children == 0) return importance_of(emitters_[node.emitter], at);
+  if (node.children == 0) {
+    const EmitterView& view = views_[node.emitter];
+    return view.is_far(at.x) ? view.far_importance(at.x, at.n)
+                             : near_importance(emitters_[node.emitter], at.x, at.n);
+  }
   if (node.whole != kNone) {
     const WholeLight& whole = wholes_[node.whole].body;
     const SphereCone cone(whole.centre, whole.radius, at.x);
     if (cone.can_be_sampled()) {
-      return luminance(emitters_[whole.emitters.front()].radiance) * cone.solid_angle() * cone.mean_cosine(n);
+      return luminance(emitters_[whole.emitters.front()].radiance) * cone.solid_angle() *
+             cone.mean_cosine(Vec3d(at.n));
     }
   }
   return node.importance(at.x, at.n);

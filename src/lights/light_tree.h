@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/lights/body_mesh.h"
+#include "src/lights/emitter_view.h"
 #include "src/lights/light_bounds.h"
 #include "src/lights/light_sampler.h"
 #include "src/lights/whole_light.h"
@@ -34,6 +35,11 @@ class LightTree {
 
   /// Draws a light for u uniform in [0, 1); nothing if no light can reach the surface.
   [[nodiscard]] std::optional<Choice> choose(const LightQuery& at, double u) const;
+
+  /// Whether an emitter that is a light by itself is sampled by area from there.
+  [[nodiscard]] bool samples_area(const Vec3& x, std::uint32_t emitter) const {
+    return views_[emitter].is_far(x);
+  }
 
   /// The light that an emitter is sampled with from there, and the probability that choose() returns it.
   [[nodiscard]] Choice choice_of(const LightQuery& at, std::uint32_t emitter) const;
@@ -68,6 +74,7 @@ class LightTree {
   [[nodiscard]] Choice choice(std::uint32_t node, double pmf, const Vec3& x) const;
 
   std::span<const Emitter> emitters_;
+  std::vector<EmitterView> views_;  // by emitter
   std::vector<Whole> wholes_;
   std::vector<Node> nodes_;    // the root first
   std::vector<Place> places_;  // by emitter

@@ -28,6 +28,7 @@ class TreeSampler final : public LightSampler {
     const LightTree::Choice light = tree_.choice_of(at, emitter);
     if (light.whole != nullptr) return whole_pdf(light.pmf, cone(*light.whole, at.x));
     const Triangle& triangle = emitters_[emitter].shape;
+    if (tree_.samples_area(at.x, emitter)) return area_pdf(light.pmf, triangle, *connection);
     return triangle_pdf(light.pmf, triangle, SphericalTriangle(triangle, at.x), *connection);
   }
 
@@ -53,6 +54,10 @@ class TreeSampler final : public LightSampler {
                                                           const LightTree::Choice& light,
                                                           const Vec2& u) const {
     const Triangle& triangle = emitters_[light.emitter].shape;
+    if (tree_.samples_area(at.x, light.emitter)) {
+      return make_sample(at, light.emitter, sample_area(triangle, u),
+                         [&](const Connection& c) { return area_pdf(light.pmf, triangle, c); });
+    }
     const SphericalTriangle seen(triangle, at.x);
     return make_sample(at, light.emitter, sample_triangle(triangle, seen, at.x, u),
                        [&](const Connection& c) { return triangle_pdf(light.pmf, triangle, seen, c); });

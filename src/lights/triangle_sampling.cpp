@@ -13,17 +13,25 @@ Vec3d point_seen(const Triangle& t, const Vec3& x, const Vec3d& w) {
   return point_at(t, b1, b2);
 }
 
-Vec3d sample_triangle(const Triangle& triangle, const SphericalTriangle& seen, const Vec3& x, const Vec2& u) {
-  if (seen.can_be_sampled()) return point_seen(triangle, x, seen.sample(u));
+Vec3d sample_area(const Triangle& triangle, const Vec2& u) {
   const auto [b1, b2] = uniform_triangle(u);
   return point_at(triangle, b1, b2);
+}
+
+PdfSolidAngle area_pdf(double pmf, const Triangle& triangle, const Connection& connection) {
+  return to_solid_angle({static_cast<float>(pmf / area(triangle))}, connection.distance2,
+                        connection.cos_light);
+}
+
+Vec3d sample_triangle(const Triangle& triangle, const SphericalTriangle& seen, const Vec3& x, const Vec2& u) {
+  if (seen.can_be_sampled()) return point_seen(triangle, x, seen.sample(u));
+  return sample_area(triangle, u);
 }
 
 PdfSolidAngle triangle_pdf(double pmf, const Triangle& triangle, const SphericalTriangle& seen,
                            const Connection& connection) {
   if (seen.can_be_sampled()) return {static_cast<float>(pmf / seen.solid_angle())};
-  return to_solid_angle({static_cast<float>(pmf / area(triangle))}, connection.distance2,
-                        connection.cos_light);
+  return area_pdf(pmf, triangle, connection);
 }
 
 }  // namespace lemma
