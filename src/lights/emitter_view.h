@@ -11,8 +11,8 @@ class EmitterView {
  public:
   explicit EmitterView(const Emitter& emitter);
 
-  /// Whether x lies above the emitter by more than twice its longest edge. Over the emitter cosine /
-  /// distance^2 then changes by less than 30 %, so that points uniform by area serve as well as directions
+  /// Whether x lies above the emitter by more than 1.5 times its longest edge. Over the emitter cosine /
+  /// distance^2 then changes by less than half, so that points uniform by area serve as well as directions
   /// uniform by solid angle, and one value at the centre as well as the formula of the angle.
   [[nodiscard]] bool is_far(const Vec3& x) const { return dot(normal_, x - centre_) > kFar * size_; }
 
@@ -21,7 +21,7 @@ class EmitterView {
   [[nodiscard]] double far_importance(const Vec3& x, const Vec3& n) const;
 
  private:
-  static constexpr float kFar = 2;
+  static constexpr float kFar = 1.5f;
 
   Vec3 centre_, normal_;
   float size_;   // longest edge
