@@ -1,5 +1,7 @@
 #include "src/lights/projected_triangle.h"
 
+#include <algorithm>
+
 namespace lemma {
 namespace {
 
@@ -54,11 +56,12 @@ Vec3d ProjectedTriangle::Sector::direction_at(double part) const {
     const double excess = area_up_to(along) - part;
     (excess > 0 ? high : low) = s;
     const double slope = 0.5 * turn * (inner.height2(d) - outer.height2(d)) / dot(along, along);
-    double next = s - excess / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double moved = std::abs(next - s);
-    s = next;
-    if (moved < precise) break;
+    const double next = s - excess / slope;
+    if (std::abs(next - s) < precise) {
+      s = std::clamp(next, 0.0, 1.0);
+      break;
+    }
+    s = next > low && next < high ? next : 0.5 * (low + high);
   }
   return normalize(from + (to - from) * s);
 }

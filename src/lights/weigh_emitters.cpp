@@ -82,8 +82,10 @@ class Weigher {
   HWY_INLINE Floats operator()() const {
     const Vectors x = broadcast(from_.x);
     const Vectors a = seen(block_.v0_x, block_.v0_y, block_.v0_z, x);
-    const Floats side = side_of_planes(a);
-    const Mask front = hn::Gt(side, hn::Zero(kLanes));
+    const Floats luminance = load(block_.luminance);
+    const Mask shines = hn::Gt(luminance, hn::Zero(kLanes));
+    const Floats side = side_of_planes(a, shines);
+    const Mask front = hn::And(shines, hn::Gt(side, hn::Zero(kLanes)));
     if (hn::AllFalse(kLanes, front)) return hn::Zero(kLanes);
     const Vectors b = seen(block_.v1_x, block_.v1_y, block_.v1_z, x);
     const Vectors c = seen(block_.v2_x, block_.v2_y, block_.v2_z, x);
@@ -93,8 +95,8 @@ class Weigher {
                                        hn::Add(hn::Mul(dot(b, c), la), hn::Mul(dot(c, a), lb)));
     const Floats angle = atan2_upper(hn::Max(side, hn::Set(kLanes, kLeast)), denominator);
     const Floats solid_angle = hn::Max(hn::Add(angle, angle), hn::Set(kLanes, kLeast));
-    const Floats measure = kProjected ? projected(solid_angle, a, b, c, la, lb, lc) : solid_angle;
-    return hn::IfThenElseZero(front, hn::Mul(load(block_.luminance), measure));
+    const Floats measure = kProjected ? projected(solid_angle, front, a, b, c, la, lb, lc) : solid_angle;
+    return hn::IfThenElseZero(front, hn::Mul(luminance, measure));
   }
 
  private:
@@ -116,13 +118,13 @@ class Weigher {
 
   /// side_of(), of the right sign: where the roundings of float32, one for each of a difference, the normal,
   /// a product and its two sums, may have turned it, it is computed again in double.
-  HWY_INLINE Floats side_of_planes(const Vectors& a) const {
+  HWY_INLINE Floats side_of_planes(const Vectors& a, Mask shines) const {
     const Vectors normal{load(block_.normal_x), load(block_.normal_y), load(block_.normal_z)};
     const Floats side = hn::Neg(dot(a, normal));
     const Vectors abs_a{hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)},
         abs_normal{hn::Abs(normal.x), hn::Abs(normal.y), hn::Abs(normal.z)};
     const Floats doubt = hn::Mul(dot(abs_a, abs_normal), hn::Set(kLanes, 0x1p-21f));
-    const Mask doubtful = hn::Le(hn::Abs(side), doubt);
+    const Mask doubtful = hn::And(shines, hn::Le(hn::Abs(side), doubt));
     if (HWY_LIKELY(hn::AllFalse(kLanes, doubtful))) return side;
     HWY_ALIGN float sides[kMostLanes];
     hn::Store(side, kLanes, sides);
@@ -133,8 +135,8 @@ class Weigher {
     return hn::Load(kLanes, sides);
   }
 
-  HWY_INLINE Floats projected(Floats solid_angle, const Vectors& a, const Vectors& b, const Vectors& c,
-                              Floats la, Floats lb, Floats lc) const {
+  HWY_INLINE Floats projected(Floats solid_angle, Mask front, const Vectors& a, const Vectors& b,
+                              const Vectors& c, Floats la, Floats lb, Floats lc) const {
     const Vectors n = broadcast(from_.n);
     const auto cosine = [&](const Vectors& v, Floats length) {
       const Floats above = hn::Add(hn::Div(dot(n, v), length), hn::Set(kLanes, kSlack));
@@ -142,8 +144,8 @@ class Weigher {
     };
     const Floats cosines = hn::Add(hn::Add(cosine(a, la), cosine(b, lb)), cosine(c, lc));
     const Floats estimate = hn::Mul(hn::Mul(cosines, hn::Set(kLanes, 1 / 3.0f)), solid_angle);
-    const Mask large =
-        hn::And(hn::Gt(solid_angle, hn::Set(kLanes, kLarge)), hn::Gt(cosines, hn::Zero(kLanes)));
+    const Mask above = hn::And(front, hn::Gt(cosines, hn::Zero(kLanes)));
+    const Mask large = hn::And(above, hn::Gt(solid_angle, hn::Set(kLanes, kLarge)));
     if (HWY_LIKELY(hn::AllFalse(kLanes, large))) return estimate;
     HWY_ALIGN float values[kMostLanes];
     hn::Store(estimate, kLanes, values);

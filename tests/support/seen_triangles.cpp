@@ -129,6 +129,14 @@ Partition::Partition(const SeenTriangle& seen, Measure measure, std::size_t part
   }
 }
 
+std::vector<Corners> Partition::parts() const {
+  std::vector<Corners> parts;
+  for (const Node& node : nodes_) {
+    if (node.part >= 0) parts.push_back(node.corners);
+  }
+  return parts;
+}
+
 std::vector<double> Partition::shares() const {
   std::vector<double> shares;
   for (const Node& node : nodes_) {

@@ -36,6 +36,7 @@ class Partition {
   /// Quarters the part of the largest measure again and again until there are `parts` or more.
   Partition(const SeenTriangle& seen, Measure measure, std::size_t parts);
 
+  [[nodiscard]] std::vector<Corners> parts() const;
   /// Share of the measure that each part has.
   [[nodiscard]] std::vector<double> shares() const;
   [[nodiscard]] double total() const { return nodes_.front().measure; }
