@@ -83,7 +83,7 @@ double mean_of(const std::vector<float>& values) {
 }
 
 NoisyImage noisy(const ReadImage& read) {
-  return {read.image, *read.variance, std::max(1, read.replicates - 1)};
+  return {read.image, *read.variance, std::max(1, read.parts - 1)};
 }
 
 Comparison compare(const CompareOptions& options, const ReadImage& image, const ReadImage& reference) {
@@ -111,12 +111,12 @@ std::optional<double> write_difference(const std::filesystem::path& path, const 
                                        const Image& reference) {
   const Metadata metadata = {{"Software", "Lemma " LEMMA_VERSION}, {"DateTime", ""}};
   if (holds_linear_floats(path)) {
-    write_image(path, signed_difference(image, reference), {}, metadata);
+    write_image(path, signed_difference(image, reference), nullptr, {}, metadata);
     return std::nullopt;
   }
   const ToneMap as_is{ToneCurve::gamma, 0, 1, 1};
   const double scale = difference_scale(image, reference);
-  write_image(path, false_color(image, reference, scale), as_is, metadata);
+  write_image(path, false_color(image, reference, scale), nullptr, as_is, metadata);
   return scale;
 }
 

@@ -105,6 +105,51 @@ void add_accelerator_options(CLI::App& app, RenderOptions& o) {
             into(o.accel_options.grid, parse_grid_cells));
 }
 
+std::optional<std::uint32_t> parse_spp(const std::string& text) {
+  const auto spp = parse_number<std::uint32_t>(text);
+  return spp && *spp >= 1 && *spp <= RenderSettings::kMostSamples ? spp : std::nullopt;
+}
+
+std::optional<double> parse_positive(const std::string& text) {
+  const auto number = parse_number<double>(text);
+  return number && std::isfinite(*number) && *number > 0 ? number : std::nullopt;
+}
+
+void add_stop_options(CLI::App& app, RenderOptions& o) {
+  add_value(app,
+            {.flag = "--spp",
+             .type = "N",
+             .fallback = fmt::format("{}", o.settings.spp),
+             .expected = fmt::format("a whole number from 1 to {}", RenderSettings::kMostSamples),
+             .help = "Samples a pixel; with --time or --target-error, at most"},
+            into(o.spp, parse_spp));
+  add_value(
+      app,
+      {.flag = "--time",
+       .type = "S",
+       .expected = "a number above 0",
+       .help =
+           "Stop after so many seconds of rendering, with the same samples in all pixels; the file tells how "
+           "many, and --spp with that number makes it again"},
+      into(o.seconds, parse_positive));
+  add_value(
+      app,
+      {.flag = "--target-error",
+       .type = "E",
+       .expected = "a number above 0",
+       .help = "Stop when the estimated relMSE, the mean of variance / (I^2 + 0.01), is E or less; looked at "
+               "from 16 samples on. 0.01 is an error of about a tenth of the pixel's value"},
+      into(o.target_relmse, parse_positive));
+  add_file(
+      app,
+      {.flag = "--reference",
+       .type = "FILE.exr",
+       .expected = "an image file",
+       .help = "Measure the error against this image at every doubling of the samples, for the summary and "
+               "--stats"},
+      [&o](const auto& path) { o.reference = path; });
+}
+
 void add_output_options(CLI::App& app, RenderOptions& o) {
   constexpr float any = -std::numeric_limits<float>::infinity();
   add_file(app,
@@ -159,10 +204,15 @@ CLI::App* add_render_command(CLI::App& app, RenderOptions& o) {
   add_output_options(*render, o);
   add_accelerator_options(*render, o);
   add_transport_options(*render, o);
-  add_integer(*render, "--spp", o.settings.spp, 1, 1u << 30, "Samples a pixel");
+  add_stop_options(*render, o);
   add_choice(
       *render, "--sampler", sequences(), [&o](auto& entry) { o.settings.sequence = entry.value; },
       "Random numbers");
+  add_integer(
+      *render, "--replicates", o.settings.replicates, 1, 64,
+      "Independent scramblings of --sampler sobol that a pixel's samples take turns with. With 2 or more the "
+      "layer \"variance\" has no bias, but the image more noise; with 1 it is made from the halves of one "
+      "sequence and rather too large");
   add_integer(*render, "--seed", o.settings.seed, 0, std::numeric_limits<std::uint64_t>::max(),
               "Seed of the random numbers: the same seed, the same image");
   add_integer(*render, "--threads", o.threads, 0, 1024,

@@ -36,6 +36,10 @@ struct RenderOptions {
   IntegratorOptions integrator_options;
   Named<LightSamplerFactory> lights = light_samplers().front();
   RenderSettings settings;
+  std::optional<std::uint32_t> spp;         // in place of that of settings, which is the default
+  std::optional<double> seconds;            // of rendering
+  std::optional<double> target_relmse;      // at which rendering stops
+  std::filesystem::path reference;          // image to measure the error against; empty: none
   std::optional<std::pair<int, int>> size;  // width, height in place of the scene's
   std::optional<Pixel> pixel;               // render this one alone
   bool explain = false;                     // tell what happens on its paths

@@ -8,10 +8,12 @@
 #include "src/app/argument_error.h"
 #include "src/app/pixel_command.h"
 #include "src/app/progress.h"
+#include "src/app/render_passes.h"
 #include "src/app/summary.h"
 #include "src/core/machine.h"
 #include "src/core/parallel.h"
 #include "src/render/image_file.h"
+#include "src/render/image_layers.h"
 #include "src/render/whole_file.h"
 #include "src/scene/albedo.h"
 
@@ -70,27 +72,30 @@ LoadedScene load(const RenderOptions& options) {
   return loaded;
 }
 
-/// The options that the image depends on, as a command line would say them.
-std::string image_options(const RenderOptions& o, const CameraView& view) {
+/// The options that the image depends on, as a command line would say them; those that ask for a time or an
+/// error, as the samples that came of them.
+std::string image_options(const RenderOptions& o, const CameraView& view, std::uint32_t spp) {
   const IntegratorOptions& i = o.integrator_options;
   return fmt::format(
       "--accel {} --integrator {} --lights {} --mis {} --technique {} --rr {} --max-depth {} {} "
-      "--emitters {} --sampler {} --spp {} --seed {} --size {}x{}",
+      "--emitters {} --sampler {} --replicates {} --spp {} --seed {} --size {}x{}",
       o.accel.name, o.integrator.name, o.lights.name, name_of(heuristics(), i.heuristic),
       name_of(counted_samples(), i.counted_samples), name_of(roulettes(), i.roulette), i.max_depth,
       text_of(o.scene.load), i.emitters_reflect ? "reflect" : "absorb",
-      name_of(sequences(), o.settings.sequence), o.settings.spp, o.settings.seed, view.width, view.height);
+      name_of(sequences(), o.settings.sequence), o.settings.replicates, spp, o.settings.seed, view.width,
+      view.height);
 }
 
 /// Nothing of it depends on when, where, or on how many threads the image was made: same input, same bytes.
-Metadata image_metadata(const RenderOptions& options, const CameraView& view) {
+Metadata image_metadata(const RenderOptions& options, const CameraView& view, const RenderResult& result) {
   return {{"Software", "Lemma " LEMMA_VERSION},
           {"DateTime", ""},  // else OpenImageIO puts the time there
           {"lemma:version", LEMMA_VERSION},
           {"lemma:scene", options.scene.scene.string()},
-          {"lemma:options", image_options(options, view)},
-          {"lemma:spp", fmt::format("{}", options.settings.spp)},
-          {"lemma:seed", fmt::format("{}", options.settings.seed)}};
+          {"lemma:options", image_options(options, view, result.spp)},
+          {"lemma:spp", fmt::format("{}", result.spp)},
+          {"lemma:seed", fmt::format("{}", options.settings.seed)},
+          {kPartsAttribute, fmt::format("{}", result.parts)}};
 }
 
 struct BuiltAccelerator {
@@ -116,18 +121,26 @@ ExitCode run_render(const RenderOptions& options) {
     check_writable(outputs.emplace_back(default_output(loaded.report)));
   }
 
+  const std::optional<ReadImage> reference = read_reference(options, scene.view);
+
   const BuiltAccelerator built = build_accelerator(options, scene);
   const auto lights = options.lights.value(scene.emitters);
   const auto integrator = options.integrator.value(scene.needs.model, options.integrator_options);
   if (options.pixel) return run_pixel(options, {scene, *built.accel, *lights}, *integrator);
   Progress progress(options.quiet ? ProgressStyle::off : options.progress);
-  const RenderResult result = render({scene, *built.accel, *lights}, *integrator, options.settings,
-                                     [&](double done) { progress.update(done); });
+  const auto [result, curve] =
+      render_passes({scene, *built.accel, *lights}, *integrator, options, reference, progress);
 
-  const Metadata metadata = image_metadata(options, scene.view);
-  for (const fs::path& path : outputs) write_image(path, result.image, options.tone_map, metadata);
-  const RunFigures figures{describe(scene.needs), built.accel->description(), built.accel->memory_bytes(),
-                           built.seconds, limit.threads()};
+  const Metadata metadata = image_metadata(options, scene.view, result);
+  const Image* const variance = result.spp > 1 ? &result.variance : nullptr;
+  for (const fs::path& path : outputs) write_image(path, result.image, variance, options.tone_map, metadata);
+  const RunFigures figures{.model = describe(scene.needs),
+                           .accelerator = built.accel->description(),
+                           .accelerator_bytes = built.accel->memory_bytes(),
+                           .accel_build_seconds = built.seconds,
+                           .threads = limit.threads(),
+                           .error = estimated_error(result.image, result.variance),
+                           .curve = curve};
   if (!options.stats.empty()) write_whole_file(options.stats, summary_json(options, figures, result));
   if (!options.quiet) fmt::print("{}", summary_text(options, figures, result));
   return result.invalid_samples > 0 ? kInvalidSamples : kDone;

@@ -26,6 +26,48 @@ std::string invalid_text(const RenderResult& result) {
   return text;
 }
 
+std::string interval_text(const Interval& i) {
+  return fmt::format("{:.4g} ({:.4g} to {:.4g})", i.value, i.low, i.high);
+}
+
+/// Whether the variance is estimated from halves of one scrambled sequence, see Film.
+bool rather_too_large(const RenderOptions& options) {
+  return options.settings.sequence == Sequence::sobol && options.settings.replicates == 1;
+}
+
+std::string error_text(const RenderOptions& options, const RunFigures& figures) {
+  if (figures.error.rmse.value == 0) return {};
+  return fmt::format("estimated error: RMSE {}, relMSE {}, 95 %{}\n", interval_text(figures.error.rmse),
+                     interval_text(figures.error.relmse),
+                     rather_too_large(options) ? "; rather too large, --replicates 2 has no bias" : "");
+}
+
+std::string curve_text(const std::vector<ErrorPoint>& curve) {
+  if (curve.empty()) return {};
+  std::string text =
+      fmt::format("against the reference:\n{:>10}{:>12}{:>14}{:>14}\n", "spp", "seconds", "RMSE", "relMSE");
+  for (const ErrorPoint& p : curve) {
+    text += fmt::format("{:>10}{:>12.3f}{:>14.6g}{:>14.6g}\n", p.spp, p.seconds, p.rmse, p.relmse);
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Interval& i) {
+  return {{"value", i.value}, {"low", i.low}, {"high", i.high}};
+}
+
+nlohmann::ordered_json curve_json(const std::vector<ErrorPoint>& curve) {
+  auto points = nlohmann::ordered_json::array();
+  for (const ErrorPoint& p : curve) {
+    points.push_back({{"spp", p.spp},
+                      {"seconds", p.seconds},
+                      {"cpu_seconds", p.cpu_seconds},
+                      {"rmse", p.rmse},
+                      {"relmse", p.relmse}});
+  }
+  return points;
+}
+
 }  // namespace
 
 std::string summary_text(const RenderOptions& options, const RunFigures& figures,
@@ -33,12 +75,13 @@ std::string summary_text(const RenderOptions& options, const RunFigures& figures
   std::string text = fmt::format("model: {}\n", figures.model);
   text += fmt::format("accelerator: {}, built in {:.3f} s, {:.1f} MB\n", figures.accelerator,
                       figures.accel_build_seconds, static_cast<double>(figures.accelerator_bytes) / 1e6);
-  text += fmt::format("samples: {} spp, {} camera samples, {:.3g} million/s\n", options.settings.spp,
+  text += fmt::format("samples: {} spp, {} camera samples, {:.3g} million/s\n", result.spp,
                       result.camera_samples, rate(result.camera_samples, result.seconds) / 1e6);
   text +=
       fmt::format("rays: {}, {:.3g} million/s, {:.0f} % of the time in the accelerator\n", result.counts.rays,
                   rate(result.counts.rays, result.seconds) / 1e6, 100 * traversal_share(result.counts));
   text += fmt::format("time: {:.3f} s on {} threads\n", result.seconds, figures.threads);
+  text += error_text(options, figures) + curve_text(figures.curve);
   if (result.counts.paths_cut > 0) {
     text += fmt::format("paths cut at depth {}: {} (the image lacks their light)\n",
                         options.integrator_options.max_depth, result.counts.paths_cut);
@@ -48,7 +91,7 @@ std::string summary_text(const RenderOptions& options, const RunFigures& figures
 
 std::string summary_json(const RenderOptions& options, const RunFigures& figures,
                          const RenderResult& result) {
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"version", LEMMA_VERSION},
       {"scene", options.scene.scene.string()},
       {"model", figures.model},
@@ -58,20 +101,30 @@ std::string summary_json(const RenderOptions& options, const RunFigures& figures
       {"accel_bytes", figures.accelerator_bytes},
       {"integrator", options.integrator.name},
       {"lights", options.lights.name},
+      {"mis", name_of(heuristics(), options.integrator_options.heuristic)},
+      {"sampler", name_of(sequences(), options.settings.sequence)},
+      {"replicates", options.settings.replicates},
       {"seed", options.settings.seed},
       {"threads", figures.threads},
       {"width", result.image.width},
       {"height", result.image.height},
-      {"spp", options.settings.spp},
+      {"spp", result.spp},
       {"camera_samples", result.camera_samples},
       {"rays", result.counts.rays},
       {"render_seconds", result.seconds},
+      {"render_cpu_seconds", result.cpu_seconds},
       {"camera_samples_per_second", rate(result.camera_samples, result.seconds)},
       {"rays_per_second", rate(result.counts.rays, result.seconds)},
       {"traversal_share", traversal_share(result.counts)},
       {"paths_cut", result.counts.paths_cut},
       {"invalid_samples", result.invalid_samples},
   };
+  if (figures.error.rmse.value > 0) {
+    json["estimated_error"] = {{"rmse", to_json(figures.error.rmse)},
+                               {"relmse", to_json(figures.error.relmse)},
+                               {"rather_too_large", rather_too_large(options)}};
+  }
+  if (!figures.curve.empty()) json["error_curve"] = curve_json(figures.curve);
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;  // names of files may be no UTF-8
   return json.dump(2, ' ', false, replace) + "\n";
 }

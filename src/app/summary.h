@@ -1,10 +1,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "src/app/options.h"
+#include "src/measure/estimated_error.h"
 
 namespace lemma {
+
+/// The error against a reference at one moment of a rendering.
+struct ErrorPoint {
+  std::uint32_t spp = 0;
+  double seconds = 0, cpu_seconds = 0;
+  double rmse = 0, relmse = 0;  // without the noise of the reference, if it tells its variance
+};
 
 /// The figures of one rendering.
 struct RunFigures {
@@ -13,6 +22,8 @@ struct RunFigures {
   std::size_t accelerator_bytes = 0;
   double accel_build_seconds = 0;
   int threads = 0;
+  EstimatedError error;           // 0 if there is no estimate: with one sample a pixel
+  std::vector<ErrorPoint> curve;  // with --reference
 };
 
 /// For people: a few lines.

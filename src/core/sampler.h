@@ -36,14 +36,17 @@ enum class Sequence {
 /// The random numbers of one camera sample. They depend on (seed, pixel, sample index) and on how many were
 /// drawn before, on nothing else: not on threads, tiles or other pixels. With Sequence::sobol the n-th draws
 /// of a pixel's samples are spread evenly over the line or, drawn as pairs, the square; different draws,
-/// pixels and seeds are independent.
+/// pixels and seeds are independent. With `replicates` above 1, the samples i, i + replicates, i + 2
+/// replicates,
+/// ... have a scrambling of their own, independent of the others.
 class Sampler {
  public:
   Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample,
-          Sequence sequence = Sequence::independent)
+          Sequence sequence = Sequence::independent, std::uint32_t replicates = 1)
       : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
         pixel_(pixel),
-        sample_(sample),
+        sample_(sequence == Sequence::sobol ? sample / replicates : sample),
+        replicate_(sequence == Sequence::sobol ? sample % replicates : 0),
         sequence_(sequence) {}
 
   [[nodiscard]] std::uint32_t pixel() const { return pixel_; }
@@ -77,12 +80,12 @@ class Sampler {
   }
 
   std::array<std::uint32_t, 2> next_sobol() {
-    const auto keys = philox4x32({pixel_, 0, block_++, 1}, key_);
+    const auto keys = philox4x32({pixel_, replicate_, block_++, 1}, key_);
     return scrambled_sobol(sample_, {keys[0], keys[1], keys[2]});
   }
 
   std::array<std::uint32_t, 2> key_;
-  std::uint32_t pixel_, sample_, block_ = 0;
+  std::uint32_t pixel_, sample_, replicate_, block_ = 0;
   std::array<std::uint32_t, 4> words_{};
   std::uint32_t used_ = 4;
   Sequence sequence_;

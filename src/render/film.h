@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "src/core/rgb.h"
@@ -21,15 +23,74 @@ struct Image {
   }
 };
 
-/// The sum of a pixel's samples, in double: at 2^24 samples a float sum of ones stops growing.
+/// The sum of some of a pixel's samples, in double: at 2^24 samples a float sum of ones stops growing.
 struct PixelSum {
   double r = 0, g = 0, b = 0;
+  std::uint64_t count = 0;
 
-  void add(const Rgb& sample) { r += sample.r, g += sample.g, b += sample.b; }
-  [[nodiscard]] Rgb mean(std::uint64_t samples) const {
-    const double scale = samples > 0 ? 1.0 / static_cast<double>(samples) : 0.0;
+  void add(const Rgb& sample) { r += sample.r, g += sample.g, b += sample.b, ++count; }
+  PixelSum& operator+=(const PixelSum& o) {
+    r += o.r, g += o.g, b += o.b, count += o.count;
+    return *this;
+  }
+  /// Black if there is no sample.
+  [[nodiscard]] Rgb mean() const {
+    const double scale = count > 0 ? 1.0 / static_cast<double>(count) : 0.0;
     return {static_cast<float>(r * scale), static_cast<float>(g * scale), static_cast<float>(b * scale)};
   }
+};
+
+/// The samples of all pixels so far, summed in parts from which the variance of their mean can be told. A
+/// sample's part depends on its index alone, and each part is summed in the order of the samples: the film is
+/// the same however the samples were cut into ranges.
+///
+/// With R >= 2 replicates, part k holds the samples k, k + R, k + 2 R, ...: scrambled independently, their
+/// means give the variance without bias. With one, the parts are the first half of the samples and the rest,
+/// cut at a power of two or three times one. Halves of independent samples are replicates too. Halves of one
+/// scrambled sequence are spread to fill each other's gaps: what one has too much the other tends to lack, so
+/// that their difference, and the variance made from it, is too large rather than too small. By how much
+/// follows from the rate: if the variance of a mean falls as n^-a, 2^a - 1 times, that is once for
+/// independent samples.
+class Film {
+ public:
+  Film(int width, int height, std::uint32_t replicates);
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+  /// Must be called for a pixel's samples in order, before the first of each index.
+  void prepare(int x, int y, std::uint32_t sample);
+  void add(int x, int y, std::uint32_t sample, const Rgb& value) { cells(x, y)[cell_of(sample)].add(value); }
+
+  [[nodiscard]] Image image() const;
+
+  /// Estimated variance of the mean of each value [radiance^2], 0 where less than two parts hold samples.
+  /// Beyond the range of float it is the largest float.
+  [[nodiscard]] Image variance() const;
+
+  /// Independent or nearly independent parts that variance() is made from: it has one degree of freedom less.
+  [[nodiscard]] std::uint32_t parts() const { return replicates_ > 1 ? replicates_ : 2; }
+
+ private:
+  /// With one replicate: S samples, S samples and the next up to 2 S, for a power of two S.
+  static constexpr std::uint32_t kHalvingCells = 3;
+
+  [[nodiscard]] std::uint32_t cells_a_pixel() const { return replicates_ > 1 ? replicates_ : kHalvingCells; }
+  [[nodiscard]] std::uint32_t cell_of(std::uint32_t sample) const {
+    return replicates_ > 1 ? sample % replicates_ : std::min(sample, kHalvingCells - 1);
+  }
+  [[nodiscard]] std::size_t first_cell(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) *
+           cells_a_pixel();
+  }
+  [[nodiscard]] PixelSum* cells(int x, int y) { return &sums_[first_cell(x, y)]; }
+  [[nodiscard]] std::span<const PixelSum> cells(int x, int y) const {
+    return {&sums_[first_cell(x, y)], cells_a_pixel()};
+  }
+
+  int width_, height_;
+  std::uint32_t replicates_;
+  std::vector<PixelSum> sums_;
 };
 
 /// A sample that was no radiance: NaN, infinite or negative in a channel.

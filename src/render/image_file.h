@@ -24,8 +24,9 @@ void check_writable(const std::filesystem::path& path);
 
 /// Writes the image in the format that the name's ending tells: EXR and HDR hold linear floats, all
 /// others the tone-mapped 8-bit picture. The file appears under its name only when it is whole.
+/// @param variance  of each value of the image, for the layer "variance" of EXR files; null: none
 /// @throw FileError
-void write_image(const std::filesystem::path& path, const Image& image, const ToneMap& tone_map,
-                 const Metadata& metadata);
+void write_image(const std::filesystem::path& path, const Image& image, const Image* variance,
+                 const ToneMap& tone_map, const Metadata& metadata);
 
 }  // namespace lemma

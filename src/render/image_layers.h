@@ -4,10 +4,10 @@
 
 namespace lemma {
 
-/// Names in an EXR file: the image, the variance of the mean of each value of it, and the number of independent
-/// parts that the variance was estimated from.
+/// Names in an EXR file: the image, the variance of the mean of each value of it, and the number of
+/// independent parts that the variance was estimated from.
 inline constexpr std::array<const char*, 3> kColorChannels = {"R", "G", "B"};
 inline constexpr std::array<const char*, 3> kVarianceChannels = {"variance.R", "variance.G", "variance.B"};
-inline constexpr const char* kReplicatesAttribute = "lemma:replicates";
+inline constexpr const char* kPartsAttribute = "lemma:variance-parts";
 
 }  // namespace lemma

@@ -106,7 +106,7 @@ ReadImage read_image(const fs::path& path) {
   if (has_all(variance)) {
     read.variance = pick(spec, values, variance);
     require_finite(path, *read.variance, " in the layer variance");
-    read.replicates = spec.get_int_attribute(kReplicatesAttribute, 0);
+    read.parts = spec.get_int_attribute(kPartsAttribute, 0);
   }
   return read;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <mutex>
 #include <tuple>
 
@@ -36,6 +37,11 @@ class ThrottledProgress {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Of all threads of the program.
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
 void collect(const std::vector<TileResult>& tiles, RenderResult& result) {
   for (const TileResult& tile : tiles) {
     result.counts += tile.counts;
@@ -52,26 +58,44 @@ void collect(const std::vector<TileResult>& tiles, RenderResult& result) {
 
 }  // namespace
 
-RenderResult render(const World& world, const Integrator& integrator, const RenderSettings& settings,
-                    const ProgressSink& progress) {
-  const auto start = std::chrono::steady_clock::now();
-  const Camera camera(world.scene.view);
-  const std::vector<Tile> tiles = tiles_of(camera.width(), camera.height());
-  RenderResult result;
-  const std::size_t pixels =
-      static_cast<std::size_t>(camera.width()) * static_cast<std::size_t>(camera.height());
-  result.image = {camera.width(), camera.height(), std::vector<Rgb>(pixels)};
-  result.camera_samples = std::uint64_t{settings.spp} * pixels;
+Rendering::Rendering(const World& world, const Integrator& integrator, const RenderSettings& settings)
+    : world_(world),
+      integrator_(integrator),
+      settings_(settings),
+      camera_(world.scene.view),
+      film_(camera_.width(), camera_.height(), settings.replicates) {}
 
+void Rendering::render_to(std::uint32_t spp, const ProgressSink& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu_start = processor_seconds();
+  const SampleRange samples{counts_.spp, spp};
+  const std::vector<Tile> tiles = tiles_of(film_.width(), film_.height());
   std::vector<TileResult> tile_results(tiles.size());
   ThrottledProgress throttled(progress, tiles.size());
   parallel_for(tiles.size(), [&](std::size_t i) {
-    tile_results[i] = render_tile(world, integrator, camera, settings, tiles[i], result.image);
+    tile_results[i] = render_tile(world_, integrator_, camera_, settings_, tiles[i], samples, film_);
     throttled.tile_done();
   });
-  collect(tile_results, result);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  collect(tile_results, counts_);
+  counts_.spp = spp;
+  counts_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  counts_.cpu_seconds += processor_seconds() - cpu_start;
+}
+
+RenderResult Rendering::result() const {
+  RenderResult result = counts_;
+  result.image = film_.image();
+  result.variance = film_.variance();
+  result.parts = film_.parts();
+  result.camera_samples = std::uint64_t{result.spp} * result.image.pixels.size();
   return result;
+}
+
+RenderResult render(const World& world, const Integrator& integrator, const RenderSettings& settings,
+                    const ProgressSink& progress) {
+  Rendering rendering(world, integrator, settings);
+  rendering.render_to(settings.spp, progress);
+  return rendering.result();
 }
 
 }  // namespace lemma

@@ -18,8 +18,8 @@ bool is_radiance(const Rgb& c) {
 /// be traced together.
 class TileRow {
  public:
-  TileRow(const Camera& camera, const RenderSettings& settings, const Tile& tile, int y)
-      : camera_(camera), settings_(settings), tile_(tile), y_(y) {}
+  TileRow(const Camera& camera, const RenderSettings& settings, const Tile& tile, int y, Film& film)
+      : camera_(camera), settings_(settings), tile_(tile), y_(y), film_(film) {}
 
   void render_sample(std::uint32_t sample, const World& world, const Integrator& integrator, Tracer& tracer,
                      TileResult& result) {
@@ -29,26 +29,20 @@ class TileRow {
     std::array<std::optional<Hit>, kTileSize> hits;
     for (std::size_t i = 0; i < count; ++i) {
       const int x = tile_.x + static_cast<int>(i);
-      random[i].emplace(settings_.seed, pixel_index(x), sample, settings_.sequence);
+      random[i].emplace(settings_.seed, pixel_index(x), sample, settings_.sequence, settings_.replicates);
       const Vec2 u = random[i]->next_2d();
       rays[i] = camera_.ray_through(static_cast<float>(x) + u.x, static_cast<float>(y_) + u.y);
     }
     tracer.closest_hits({rays.data(), count}, {hits.data(), count});
     for (std::size_t i = 0; i < count; ++i) {
+      const int x = tile_.x + static_cast<int>(i);
       const Rgb value = integrator.radiance(rays[i], hits[i], world, tracer, *random[i]);
+      film_.prepare(x, y_, sample);
       if (is_radiance(value)) {
-        sums_[i].add(value);
-        ++valid_[i];
+        film_.add(x, y_, sample, value);
       } else {
-        report_invalid({tile_.x + static_cast<int>(i), y_, sample, value}, result);
+        report_invalid({x, y_, sample, value}, result);
       }
-    }
-  }
-
-  void store(Image& image) const {
-    for (int i = 0; i < tile_.width; ++i) {
-      const auto pixel = static_cast<std::size_t>(i);
-      image.at(tile_.x + i, y_) = sums_[pixel].mean(valid_[pixel]);
     }
   }
 
@@ -68,8 +62,7 @@ class TileRow {
   const RenderSettings& settings_;
   const Tile& tile_;
   int y_;
-  std::array<PixelSum, kTileSize> sums_{};
-  std::array<std::uint64_t, kTileSize> valid_{};
+  Film& film_;
 };
 
 }  // namespace
@@ -85,18 +78,18 @@ std::vector<Tile> tiles_of(int width, int height) {
 }
 
 TileResult render_tile(const World& world, const Integrator& integrator, const Camera& camera,
-                       const RenderSettings& settings, const Tile& tile, Image& image) {
+                       const RenderSettings& settings, const Tile& tile, const SampleRange& samples,
+                       Film& film) {
   TileResult result;
   Tracer tracer(world.accel);
   for (int y = tile.y; y < tile.y + tile.height; ++y) {
-    TileRow row(camera, settings, tile, y);
-    for (std::uint32_t sample = 0; sample < settings.spp; ++sample) {
+    TileRow row(camera, settings, tile, y, film);
+    for (std::uint32_t sample = samples.begin; sample < samples.end; ++sample) {
       // Rows start at different samples, so that an image of few samples is timed as well.
       const bool timed = (sample + static_cast<std::uint32_t>(y)) % kTimedSampleStride == 0;
       const Tracer::Timing timing(tracer, timed);
       row.render_sample(sample, world, integrator, tracer, result);
     }
-    row.store(image);
   }
   result.counts = tracer.counts;
   return result;

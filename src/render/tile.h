@@ -19,8 +19,14 @@ struct TileResult {
   std::vector<InvalidSample> first_invalid;
 };
 
-/// Renders all samples of a tile's pixels into the image.
+/// The samples with the indices begin ... end - 1.
+struct SampleRange {
+  std::uint32_t begin = 0, end = 0;
+};
+
+/// Renders samples of a tile's pixels into the film.
 [[nodiscard]] TileResult render_tile(const World& world, const Integrator& integrator, const Camera& camera,
-                                     const RenderSettings& settings, const Tile& tile, Image& image);
+                                     const RenderSettings& settings, const Tile& tile,
+                                     const SampleRange& samples, Film& film);
 
 }  // namespace lemma

@@ -69,6 +69,37 @@ class DifferenceImageTest(CompareTest):
         self.assertEqual(image_format(self.folder / "d.png"), "uint8 png")
 
 
+class StatisticalTest(CompareTest):
+    def test_other_seeds_and_lights_have_the_same_mean(self):
+        image = self.render_to("a.exr", "--seed", 1, spp=16, size="32x32")
+        for options in (["--seed", 2], ["--seed", 3, "--lights", "solid-angle"], ["--seed", 4, "--replicates", 4]):
+            other = self.render_to("r.exr", *options, spp=16, size="32x32")
+            text = self.compare(image, other, "--statistical")
+            self.assertIn("verdict: no difference found", text)
+
+    def test_missing_light_is_found(self):
+        image = self.render_to("a.exr", "--seed", 1, "--max-depth", 2, spp=16, size="32x32")
+        reference = self.render_to("r.exr", "--seed", 2, spp=16, size="32x32")
+        result = self.compare_json(image, reference, "--statistical", expected=COMPARISON_FAILED)["statistical"]
+        self.assertTrue(result["different"])
+        self.assertLess(min(result["global_z"]), -result["global_limit"], "the image is too dark")
+
+    def test_needs_variances(self):
+        self.render_to("a.exr", spp=1)
+        self.render_to("b.exr", spp=2)
+        for pair in (("a.exr", "b.exr"), ("b.exr", "a.exr")):
+            self.assert_refused(["compare", *pair, "--statistical"],
+                                'a.exr: error: no layer "variance", which --statistical needs\n'
+                                "  hint: .exr files that lemma render writes with --spp 2 or more have it")
+
+    def test_standard_error_of_the_mean_difference_is_told_with_variances(self):
+        image, reference = self.render_to("a.exr", spp=4), self.render_to("r.exr", "--seed", 2, spp=4)
+        figures = self.compare_json(image, reference)
+        for difference, error in zip(figures["mean_difference"], figures["mean_difference_standard_error"]):
+            self.assertLess(abs(difference), 6 * error)
+        self.assertLess(figures["relmse_without_noise"], figures["relmse"])
+
+
 class RefusalTest(CompareTest):
     def test_what_cannot_be_compared(self):
         image = self.render_to("a.exr")

@@ -56,14 +56,14 @@ class OptionTest(ErrorTest):
 
     def test_number_out_of_range_or_none(self):
         whole = {"--spp": (1, 2**30, "0"), "--seed": (0, 2**64 - 1, "-1"), "--threads": (0, 1024, "1025"),
-                 "--max-depth": (0, 1000, "1001")}
+                 "--max-depth": (0, 1000, "1001"), "--replicates": (1, 64, "65")}
         for option, (least, most, beyond) in whole.items():
             for value in (beyond, "many", "2.5", "99999999999999999999"):
                 self.assert_option_error([option, value], f'{option}: invalid value "{value}"',
                                          f"expected a whole number from {least} to {most}")
 
     def test_real_number_out_of_range_or_none(self):
-        for option in ("--gamma", "--max-radiance"):
+        for option in ("--gamma", "--max-radiance", "--time", "--target-error"):
             for value in ("0", "nan", "inf", "1e99", "1,5"):
                 self.assert_option_error([option, value], f'{option}: invalid value "{value}"',
                                          "expected a number above 0")

@@ -30,8 +30,8 @@ class HelpTest(LemmaTest):
         text = self.assert_prints("render", "--help")
         self.assertRegex(text, r"(?m)^Usage: lemma render \[OPTIONS\] SCENE$")
         wanted = ("output tonemap max-radiance gamma exposure stats progress quiet accel integrator lights mis "
-                  "technique rr max-depth brdf phong-norm brdf-sampling sampler spp seed threads size pixel explain explain-json "
-                  "emission strict").split()
+                  "technique rr max-depth brdf phong-norm brdf-sampling sampler replicates spp time target-error "
+                  "reference seed threads size pixel explain explain-json emission strict").split()
         self.assertLessEqual({"--" + name for name in wanted}, set(render_options()))
 
     def test_help_of_render_lists_and_explains_the_names_that_options_accept(self):

@@ -32,7 +32,7 @@ def image_size(image):
 
 def image_format(image):
     """Type of the values and name of the format, for example "float openexr"."""
-    return re.search(r"3 channel, (\w+ \w+)", _tool("oiiotool", "--info", image)).group(1)
+    return re.search(r"\d channel, (\w+ \w+)", _tool("oiiotool", "--info", image)).group(1)
 
 
 def image_pixels(image):

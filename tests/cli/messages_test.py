@@ -44,6 +44,7 @@ class SummaryTest(LemmaTest):
                                r"samples: 3 spp, 600 camera samples, .* million/s\n"
                                r"rays: \d+, .* million/s, \d+ % of the time in the accelerator\n"
                                r"time: [\d.]+ s on 1 threads\n"
+                               r"estimated error: RMSE [\d.e-]+ \([\d.e-]+ to [\d.e-]+\), relMSE [\d.e-]+ \(.*\), 95 %; .*\n"
                                r"invalid samples: 0\n\Z")
 
     def test_tells_that_paths_were_cut(self):

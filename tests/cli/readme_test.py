@@ -7,7 +7,7 @@ import unittest
 
 from lemma import DONE, PROJECT, SCENES, LemmaTest
 
-QUICK = {"--size": "16x9", "--spp": "1"}  # in place of what the README says, for commands that render
+QUICK = {"--size": "16x9", "--spp": "2"}  # in place of what the README says, for commands that render
 
 
 def commands_of(text):
@@ -70,7 +70,7 @@ class ReadmeTest(LemmaTest):
 
     def test_renderings_are_made_quick(self):
         self.assertEqual(made_quick("render a --spp 4096 -o b.exr --size=800x600 --seed 1".split()),
-                         "render a -o b.exr --seed 1 --size 16x9 --spp 1".split())
+                         "render a -o b.exr --seed 1 --size 16x9 --spp 2".split())
         one_pixel = "render a --pixel 640,400 --explain".split()
         self.assertEqual(made_quick(one_pixel), one_pixel)
 

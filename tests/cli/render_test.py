@@ -2,6 +2,8 @@
 
 import itertools
 import json
+import re
+import subprocess
 import unittest
 
 from lemma import (CORNELL_BOX, DONE, INVALID_SAMPLES, SCENES, LemmaTest, choices, image_format, image_header,
@@ -157,6 +159,81 @@ class StatsTest(LemmaTest):
     def test_scene_whose_name_is_no_utf_8(self):
         scene = self.copy_scene("sc\udce8ne")
         self.assertEqual(self.stats(scene=scene.name)["scene"], "sc\ufffdne")
+
+
+class StopTest(LemmaTest):
+    """Rendering until an error or a time is reached, and what tells how far it came."""
+
+    def stats(self, *arguments):
+        """Renders without --spp, which has a default."""
+        run = self.lemma("render", CORNELL_BOX, "--size", "32x32", "-o", "a.exr", "--stats", "stats.json", "-q", *arguments)
+        self.assertEqual(run.returncode, DONE, run.stderr)
+        return json.loads((self.folder / "stats.json").read_text(encoding="utf-8"))
+
+    def assert_same_as_with_spp(self, stats):
+        """The file tells the number of samples, and that number makes the same file."""
+        header = image_header(self.folder / "a.exr")
+        self.assertEqual(header["lemma:spp"], str(stats["spp"]))
+        run = self.lemma("render", CORNELL_BOX, "-q", "-o", "again.exr", *header["lemma:options"].split())
+        self.assertEqual(run.returncode, DONE, run.stderr)
+        self.assertEqual((self.folder / "again.exr").read_bytes(), (self.folder / "a.exr").read_bytes())
+
+    def test_target_error(self):
+        stats = self.stats("--target-error", 0.01)
+        self.assertLessEqual(stats["estimated_error"]["relmse"]["value"], 0.01)
+        self.assertGreater(stats["spp"], 16)
+        self.assert_same_as_with_spp(stats)
+        self.assertEqual(self.stats("--target-error", 0.01)["spp"], stats["spp"], "it does not depend on the time")
+
+    def test_target_error_is_not_looked_at_too_early(self):
+        self.assertEqual(self.stats("--target-error", 1000)["spp"], 16)
+
+    def test_time(self):
+        stats = self.stats("--time", 0.5)
+        self.assertLess(stats["render_seconds"], 5)  # far more than it takes: the machine may be busy
+        self.assert_same_as_with_spp(stats)
+
+    def test_spp_is_the_most_there_is(self):
+        self.assertEqual(self.stats("--time", 1000, "--spp", 5)["spp"], 5)
+        self.assertEqual(self.stats("--target-error", 1e-9, "--spp", 40)["spp"], 40)
+
+    def test_reference(self):
+        self.render("-q", "-o", "reference.exr", "--seed", 2, size="32x32", spp=64)
+        stats = self.stats("--reference", "reference.exr", "--spp", 12)
+        curve = stats["error_curve"]
+        self.assertEqual([point["spp"] for point in curve], [1, 2, 4, 8, 12])
+        self.assertEqual(sorted(point["seconds"] for point in curve), [point["seconds"] for point in curve])
+        self.assertGreater(curve[0]["relmse"], curve[-1]["relmse"])
+        self.assert_same_as_with_spp(stats)
+        comparison = self.lemma("compare", "a.exr", "reference.exr", "-q", "--json", "compare.json")
+        self.assertEqual(comparison.returncode, DONE, comparison.stderr)
+        relmse = json.loads((self.folder / "compare.json").read_text())["relmse_without_noise"]
+        self.assertAlmostEqual(curve[-1]["relmse"] / relmse, 1, 6)
+
+    def test_reference_that_is_none(self):
+        self.render("-q", "-o", "a.exr", "-o", "a.png", size="8x8", spp=2)
+        self.assert_refused(["render", "-q", CORNELL_BOX, "--size", "9x8", "--reference", "a.exr"],
+                            "a.exr: error: 8x8 pixels are no reference for 9x8\n  hint: render with --size 8x8")
+        self.assert_refused(["render", "-q", CORNELL_BOX, "--size", "8x8", "--reference", "a.png"],
+                            "a.png: error: a picture is no reference\n  hint: name an .exr file")
+
+
+class VarianceTest(LemmaTest):
+    def test_exr_holds_the_variance_if_there_are_two_samples(self):
+        def channels(**options):
+            listing = subprocess.run(["oiiotool", "--info", "-v", self.render_to("a.exr", **options)],
+                                     check=True, capture_output=True, text=True).stdout
+            return re.search(r"channel list: (.*)", listing).group(1)
+
+        self.assertEqual(channels(spp=1), "R, G, B")
+        self.assertEqual(channels(spp=2), "R, G, B, variance.R, variance.G, variance.B")
+
+    def test_replicates_change_scrambled_samples_alone(self):
+        for sampler in ("independent", "sobol"):
+            one, two = (self.render_to(f"{sampler}{n}.exr", "--sampler", sampler, "--replicates", n, spp=4)
+                        for n in (1, 2))
+            same = image_pixels(one) == image_pixels(two)
+            self.assertEqual(same, sampler == "independent")
 
 
 class InvalidSampleTest(LemmaTest):

@@ -37,7 +37,7 @@ TEST_F(ImageFile, WritesEveryFormatAndLeavesNothingElse) {
   std::size_t count = 0;
   for (const char* name : {"a.exr", "a.png", "a.jpg", "a.tif", "a.hdr", "A.EXR"}) {
     check_writable(folder_ / name);
-    write_image(folder_ / name, two_pixels(), {}, {{"lemma:seed", "7"}});
+    write_image(folder_ / name, two_pixels(), nullptr, {}, {{"lemma:seed", "7"}});
     EXPECT_GT(fs::file_size(folder_ / name), 0u);
     EXPECT_EQ(files(), ++count);
   }
@@ -64,7 +64,7 @@ TEST_F(ImageFile, AFailedWriteKeepsTheOldFile) {
   std::ofstream(name) << "old";
   Image broken = two_pixels();
   broken.width = 0;  // no format takes an image without pixels
-  EXPECT_NE(message_of([&] { write_image(name, broken, {}, {}); }), "no error");
+  EXPECT_NE(message_of([&] { write_image(name, broken, nullptr, {}, {}); }), "no error");
   std::string kept;
   std::ifstream(name) >> kept;
   EXPECT_EQ(kept, "old");
