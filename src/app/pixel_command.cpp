@@ -49,8 +49,8 @@ ExitCode run_pixel(const RenderOptions& options, const World& world, const Integ
   const auto strategies = all_strategies(world.scene.emitters);
   RenderSettings settings = options.settings;
   settings.spp = options.spp.value_or(settings.spp);
-  const ExplainedPixel pixel = explain_pixel(world, integrator, settings, options.pixel->x, options.pixel->y,
-                                             strategies, tell);
+  const ExplainedPixel pixel =
+      explain_pixel(world, integrator, settings, options.pixel->x, options.pixel->y, strategies, tell);
   if (!options.explain_json.empty()) {
     write_whole_file(options.explain_json, pixel_json(options, pixel, std::move(samples)));
   }

@@ -47,14 +47,15 @@ void warn_of_options(const RenderOptions& options, LoadedScene& loaded) {
            name_of(roulettes(), i.roulette), albedo, kFixedSurvival));
 }
 
-/// Memory of a pixel while an image is rendered and encoded: colours as float, as written, and once more in
-/// the encoder [bytes].
-constexpr std::uint64_t kBytesAPixel = 48;
+/// Memory of a pixel, beside the film, while an image is rendered and encoded: colours and variances as
+/// float, as written, and once more in the encoder [bytes].
+constexpr std::uint64_t kBytesAPixel = 72;
 
 /// Refuses images that the machine cannot hold, before memory is taken for them.
-void require_memory(const CameraView& view) {
-  const std::uint64_t needed =
-      kBytesAPixel * static_cast<std::uint64_t>(view.width) * static_cast<std::uint64_t>(view.height);
+void require_memory(const CameraView& view, std::uint32_t replicates) {
+  const std::uint64_t needed = (kBytesAPixel + Film::bytes_a_pixel(replicates)) *
+                               static_cast<std::uint64_t>(view.width) *
+                               static_cast<std::uint64_t>(view.height);
   if (needed <= machine_memory()) return;
   throw ArgumentError(
       fmt::format("an image of {}x{} needs {:.0f} GB of memory; there are {:.0f} GB", view.width, view.height,
@@ -65,7 +66,7 @@ void require_memory(const CameraView& view) {
 LoadedScene load(const RenderOptions& options) {
   LoadedScene loaded = load_scene(options.scene.scene, options.scene.load);
   if (options.size) std::tie(loaded.scene.view.width, loaded.scene.view.height) = *options.size;
-  require_memory(loaded.scene.view);
+  require_memory(loaded.scene.view, options.settings.replicates);
   warn_of_options(options, loaded);
   if (!options.quiet) fmt::print(stderr, "{}\n", describe(loaded));
   if (!options.quiet || options.scene.strict) report_warnings(loaded.report.warnings, options.scene.strict);

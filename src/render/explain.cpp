@@ -48,8 +48,8 @@ ExplainedPixel explain_pixel(const World& world, const Integrator& integrator, c
   const std::uint32_t pixel = static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x);
   const ExplainingIntegrator explaining(integrator, pixel, strategies, sink);
   Film film(camera.width(), camera.height(), settings.replicates);
-  const TileResult result = render_tile(world, explaining, camera, settings, row_with(camera, x, y),
-                                        {0, settings.spp}, film);
+  const TileResult result =
+      render_tile(world, explaining, camera, settings, row_with(camera, x, y), {0, settings.spp}, film);
   return {film.image().at(x, y), result.invalid_samples};
 }
 

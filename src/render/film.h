@@ -55,6 +55,9 @@ class Film {
  public:
   Film(int width, int height, std::uint32_t replicates);
 
+  static constexpr std::size_t bytes_a_pixel(std::uint32_t replicates) {
+    return cells_of(replicates) * sizeof(PixelSum);
+  }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
 
@@ -75,7 +78,10 @@ class Film {
   /// With one replicate: S samples, S samples and the next up to 2 S, for a power of two S.
   static constexpr std::uint32_t kHalvingCells = 3;
 
-  [[nodiscard]] std::uint32_t cells_a_pixel() const { return replicates_ > 1 ? replicates_ : kHalvingCells; }
+  [[nodiscard]] std::uint32_t cells_a_pixel() const { return cells_of(replicates_); }
+  static constexpr std::uint32_t cells_of(std::uint32_t replicates) {
+    return replicates > 1 ? replicates : kHalvingCells;
+  }
   [[nodiscard]] std::uint32_t cell_of(std::uint32_t sample) const {
     return replicates_ > 1 ? sample % replicates_ : std::min(sample, kHalvingCells - 1);
   }
