@@ -2,6 +2,7 @@
 
 #include "accel/accelerator.h"
 #include "accel/grid_cells.h"
+#include "accel/grid_far.h"
 #include "accel/grid_trace.h"
 
 namespace lemma {
@@ -15,22 +16,33 @@ class Grid final : public Accelerator {
         triangles_(triangles.size()) {}
 
   std::optional<Hit> closest_hit(const Ray& ray) const override {
+    if (cells_.levels.empty()) return std::nullopt;
     const ShearedRay sheared(ray);
     Hit best = no_hit(sheared);
-    trace_.closest(cells_, ray, sheared, best);
+    if (starts_far_away(cells_, ray)) {
+      closest_hit_from_afar(cells_, ray, sheared, best);
+    } else {
+      trace_.closest(cells_, ray, sheared, best);
+    }
     if (best.t < ray.t_max) return best;
     return std::nullopt;
   }
 
-  bool occluded(const Ray& ray) const override { return trace_.any(cells_, ray, ShearedRay(ray)); }
+  bool occluded(const Ray& ray) const override {
+    if (cells_.levels.empty()) return false;
+    if (starts_far_away(cells_, ray)) return closest_hit(ray).has_value();
+    return trace_.any(cells_, ray, ShearedRay(ray));
+  }
 
   std::size_t memory_bytes() const override { return cells_.memory_bytes(); }
 
   std::string description() const override {
-    const auto triangles = static_cast<double>(std::max<std::size_t>(triangles_, 1));
+    if (cells_.levels.empty()) return "grid without cells";
+    const auto& counts = cells_.levels[0].counts;
     return fmt::format("grid of {} x {} x {} cells, {} of them grids, {:.1f} references a triangle, {}",
-                       cells_.counts[0], cells_.counts[1], cells_.counts[2], cells_.children.size(),
-                       static_cast<double>(cells_.reference_count()) / triangles, trace_.name);
+                       counts[0], counts[1], counts[2], cells_.levels.size() - 1,
+                       static_cast<double>(cells_.references.size()) / static_cast<double>(triangles_),
+                       trace_.name);
   }
 
  private:

@@ -16,13 +16,12 @@
 namespace lemma {
 namespace {
 
-constexpr double kDensity = 2;          // cells a triangle
-constexpr double kMaxCells = 1u << 28;  // 3 GiB of list heads and clearances
+constexpr double kMaxCells = 1u << 28;  // a cell's index fits an int
 
-constexpr std::size_t kCrowd = 200;  // triangles of a cell that are worth a grid of their own
-constexpr double kChildDensity = 2;  // its cells a triangle
-constexpr double kMaxCopies = 8;     // its references a triangle; more: they do not come apart
-constexpr int kMaxDepth = 3;         // grids within grids
+constexpr std::size_t kCrowd = 100;    // triangles of a cell that are worth a grid of their own
+constexpr double kChildDensity = 0.5;  // its cells a triangle
+constexpr double kMaxCopies = 8;       // its references a triangle; more: they do not come apart
+constexpr int kMaxDepth = 3;           // grids within grids
 
 constexpr std::size_t kChunk = 4096;  // triangles that one task sorts in
 
@@ -31,9 +30,10 @@ constexpr std::size_t kChunk = 4096;  // triangles that one task sorts in
 constexpr double kCellMargin = 1.0 / 256;
 
 /// And by this part of the scene's size, for the rounding of hits: a hit lies within kPlaneError * kRoundoff
-/// * M of its triangle (src/core/error_bound.h), where M is at most 8 scene sizes for rays that start within
-/// seven of the scene.
-constexpr double kReachMargin = 8 * kPlaneError * kRoundoff;
+/// * M of its triangle (src/core/error_bound.h), where M is at most kTrustedSizes scene sizes; rays from
+/// further away are not walked (grid_far.h). 2^-15 of the scene: small against cells.
+constexpr double kTrustedSizes = 64;
+constexpr double kReachMargin = kTrustedSizes * kPlaneError * kRoundoff;
 
 /// Some of the triangles of a scene, and the box that a grid of them covers.
 struct Content {
@@ -43,26 +43,95 @@ struct Content {
   double reach;  // largest coordinate difference in the scene
 };
 
-double target_cells(const GridResolution& resolution, std::size_t triangles) {
+/// A level while it is built: a list for every cell.
+struct Part {
+  GridLevel level;
+  Vec3d cell_size{0};
+  Vec3d margin{0};                   // a cell is widened by it on each side when triangles are sorted in
+  std::vector<std::uint32_t> first;  // where each cell's list begins in `references`; one more at the end
+  std::vector<std::uint32_t> references;  // triangle indices, ascending within a list
+  std::vector<Part> children;             // grids of the crowded cells
+  std::vector<std::uint32_t> crowded;     // index of the cell of each child, ascending
+
+  [[nodiscard]] std::span<const std::uint32_t> list(std::size_t cell) const {
+    return {references.data() + first[cell], references.data() + first[cell + 1]};
+  }
+};
+
+/// What a random line costs in a grid of the scene [ns], by unit costs measured on one machine (Sapphire
+/// Rapids, AVX-512; only their quotients matter). Lines meet surfaces of area A in a convex box of surface S
+/// 2 A / S times on average (Crofton), and pass 4 V / S of its volume V.
+struct CostModel {
+  static constexpr double kLevel = 25;   // to clip a ray to a grid
+  static constexpr double kSlices = 45;  // to look through 16 slices for occupied cells
+  static constexpr double kCell = 20;    // to get to a list
+  static constexpr double kTriangle = 1;
+  static constexpr double kCells = 1.9;  // occupied cells that a line passes where it meets a surface
+
+  double way;        // 4 V / S
+  double crossings;  // 2 A / S, of the triangles small against cells of the coarse grid
+  double per_area;   // references that a unit of area of such cells' faces holds
+
+  /// Of a grid with cells of this size, whose occupied ones cost `content`.
+  [[nodiscard]] double grid(double length, double cell, double content) const {
+    return kLevel + kSlices * (1 + length / (16 * cell)) + content;
+  }
+  [[nodiscard]] double lists(double cell) const {
+    return crossings * kCells * (kCell + kTriangle * per_area * cell * cell);
+  }
+  [[nodiscard]] double one_level(double cell) const { return grid(way, cell, lists(cell)); }
+  [[nodiscard]] double two_levels(double coarse, double cell) const {
+    const double child = kCell + grid(0.75 * coarse, cell, 0);
+    return grid(way, coarse, crossings * kCells * child + lists(cell));
+  }
+};
+
+/// Cells of about 16 slices an axis, one look for AVX-512, in which grids of their own divide crowded cells,
+/// or one finer grid for all, where rays soon meet fine surfaces: what the model finds cheaper.
+double cheaper_target(std::span<const Triangle> triangles, const Vec3d& extent) {
+  constexpr double kCoarse = 3000;  // cells
+  const double fine = kChildDensity * static_cast<double>(triangles.size());
+  if (fine <= kCoarse) return std::min(kCoarse, 2 * static_cast<double>(triangles.size()));
+  const auto cell_of = [&](double target) {
+    const auto counts = cell_counts(extent, target);
+    return std::max({extent.x / counts[0], extent.y / counts[1], extent.z / counts[2]});
+  };
+  const double coarse_cell = cell_of(kCoarse), fine_cell = cell_of(fine);
+  double small_area = 0, small = 0;
+  for (const Triangle& t : triangles) {
+    const double a = area(t);
+    if (a < coarse_cell * coarse_cell) small_area += a, ++small;
+  }
+  const double surface = 2 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
+  const CostModel model{4 * extent.x * extent.y * extent.z / surface, 2 * small_area / surface,
+                        small_area > 0 ? 1.5 * small / small_area : 0};
+  // A crowded cell's grid divides the triangles of a face of it, not of its volume.
+  const double in_cell = model.per_area * coarse_cell * coarse_cell;
+  const double child_cell = coarse_cell / std::max(std::cbrt(kChildDensity * in_cell), 1.0);
+  return model.one_level(fine_cell) < model.two_levels(coarse_cell, child_cell) ? fine : kCoarse;
+}
+
+double target_cells(const GridResolution& resolution, std::span<const Triangle> triangles,
+                    const Vec3d& extent) {
   if (resolution.cells > 0) return static_cast<double>(resolution.cells);
-  const double density = resolution.rule == GridResolution::Rule::twenty_seven ? 27 : kDensity;
-  return density * static_cast<double>(std::max<std::size_t>(triangles, 1));
+  if (resolution.rule == GridResolution::Rule::twenty_seven)
+    return 27 * static_cast<double>(triangles.size());
+  return cheaper_target(triangles, extent);
 }
 
 /// A grid over the content's box, without cells yet.
-GridCells lay_out(const Content& content, double target) {
-  GridCells grid;
-  grid.lo = content.lo;
-  grid.hi = content.hi;
-  const Vec3d extent = grid.hi - grid.lo;
-  grid.counts = cell_counts(extent, std::min(target, kMaxCells));
+Part lay_out(const Content& content, double target) {
+  Part part;
+  part.level.lo = content.lo;
+  const Vec3d extent = content.hi - content.lo;
+  part.level.counts = cell_counts(extent, std::min(target, kMaxCells));
   for (int k = 0; k < 3; ++k) {
-    const auto axis = static_cast<std::size_t>(k);
-    grid.cell_size[k] = extent[k] / grid.counts[axis];
-    grid.cells_per_unit[k] = 1 / grid.cell_size[k];
-    grid.margin[k] = grid.cell_size[k] * kCellMargin + kReachMargin * content.reach;
+    const double count = part.level.counts[static_cast<std::size_t>(k)];
+    part.cell_size[k] = extent[k] / count;
+    part.level.cells_per_unit[k] = 1 / part.cell_size[k];
+    part.margin[k] = part.cell_size[k] * kCellMargin + kReachMargin * content.reach;
   }
-  return grid;
+  return part;
 }
 
 struct CellRange {
@@ -70,34 +139,34 @@ struct CellRange {
 };
 
 /// The cells that the triangle's bounding box touches, margin included.
-CellRange touched_cells(const GridCells& grid, const Triangle& triangle) {
+CellRange touched_cells(const Part& part, const Triangle& triangle) {
   Bounds box;
   box.add(triangle);
   CellRange range{};
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     const auto cell = [&](double x) {
-      const double position = (x - grid.lo[k]) * grid.cells_per_unit[k];
-      return static_cast<int>(std::clamp(std::floor(position), 0.0, grid.counts[axis] - 1.0));
+      const double position = (x - part.level.lo[k]) * part.level.cells_per_unit[k];
+      return static_cast<int>(std::clamp(position, 0.0, part.level.counts[axis] - 1.0));
     };
-    range.first[axis] = cell(box.lo[k] - grid.margin[k]);
-    range.last[axis] = cell(box.hi[k] + grid.margin[k]);
+    range.first[axis] = cell(box.lo[k] - part.margin[k]);
+    range.last[axis] = cell(box.hi[k] + part.margin[k]);
   }
   return range;
 }
 
 /// Calls visit(index) for every cell that the triangle overlaps.
 template <class Visit>
-void for_each_overlapped_cell(const GridCells& grid, const Triangle& triangle, const Visit& visit) {
-  const CellRange range = touched_cells(grid, triangle);
-  if (range.first == range.last) return visit(grid.index(range.first));
-  const BoxOverlap overlap(triangle, grid.cell_size * 0.5 + grid.margin);
+void for_each_overlapped_cell(const Part& part, const Triangle& triangle, const Visit& visit) {
+  const CellRange range = touched_cells(part, triangle);
+  if (range.first == range.last) return visit(part.level.index(range.first));
+  const BoxOverlap overlap(triangle, part.cell_size * 0.5 + part.margin);
   std::array<int, 3> cell{};
   for (cell[2] = range.first[2]; cell[2] <= range.last[2]; ++cell[2]) {
     for (cell[1] = range.first[1]; cell[1] <= range.last[1]; ++cell[1]) {
       for (cell[0] = range.first[0]; cell[0] <= range.last[0]; ++cell[0]) {
-        const Vec3d centre = grid.lo + Vec3d(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5) * grid.cell_size;
-        if (overlap.with_box_at(centre)) visit(grid.index(cell));
+        const Vec3d place = Vec3d(cell[0], cell[1], cell[2]) + Vec3d(0.5);
+        if (overlap.with_box_at(part.level.lo + place * part.cell_size)) visit(part.level.index(cell));
       }
     }
   }
@@ -107,15 +176,23 @@ struct Reference {
   std::uint32_t cell, triangle;
 };
 
+/// Calls body(i) for each i in [0, count), on several threads if there are many.
+template <class Body>
+void for_each_chunk(std::size_t count, const Body& body) {
+  if (count == 1) return body(0);
+  parallel_for(count, body);
+}
+
 /// The references of all triangles, in chunks of consecutive triangles.
-std::vector<std::vector<Reference>> find_references(const Content& content, const GridCells& grid) {
+std::vector<std::vector<Reference>> find_references(const Content& content, const Part& part) {
   std::vector<std::vector<Reference>> chunks((content.selected.size() + kChunk - 1) / kChunk);
-  parallel_for(chunks.size(), [&](std::size_t c) {
+  for_each_chunk(chunks.size(), [&](std::size_t c) {
     const std::size_t end = std::min((c + 1) * kChunk, content.selected.size());
+    chunks[c].reserve(4 * (end - c * kChunk));
     for (std::size_t i = c * kChunk; i < end; ++i) {
       const std::uint32_t triangle = content.selected[i];
-      for_each_overlapped_cell(grid, content.triangles[triangle], [&](std::size_t cell) {
-        chunks[c].push_back({static_cast<std::uint32_t>(cell), triangle});
+      for_each_overlapped_cell(part, content.triangles[triangle], [&](std::uint32_t cell) {
+        chunks[c].push_back({cell, triangle});
       });
     }
   });
@@ -125,7 +202,7 @@ std::vector<std::vector<Reference>> find_references(const Content& content, cons
 /// Calls body(i) for each i in [0, count) on several threads, kChunk of them at a time.
 template <class Body>
 void parallel_chunks(std::size_t count, const Body& body) {
-  parallel_for((count + kChunk - 1) / kChunk, [&](std::size_t c) {
+  for_each_chunk((count + kChunk - 1) / kChunk, [&](std::size_t c) {
     const std::size_t end = std::min((c + 1) * kChunk, count);
     for (std::size_t i = c * kChunk; i < end; ++i) body(i);
   });
@@ -133,109 +210,34 @@ void parallel_chunks(std::size_t count, const Body& body) {
 
 /// Sorts the references by cell, then by triangle. Threads place a list's entries in any order; sorting it
 /// makes the result the same for any number of them.
-void sort_into_lists(const std::vector<std::vector<Reference>>& chunks, GridCells& grid) {
-  const std::size_t cells = grid.index({grid.counts[0] - 1, grid.counts[1] - 1, grid.counts[2] - 1}) + 1;
-  grid.first.assign(cells + 1, 0);
-  const auto claim = [](std::uint32_t& x) {
+void sort_into_lists(const std::vector<std::vector<Reference>>& chunks, Part& part) {
+  const std::size_t cells = part.level.cell_count();
+  part.first.assign(cells + 1, 0);
+  const auto claim = [&](std::uint32_t& x) {
+    if (chunks.size() == 1) return x++;  // one thread
     return std::atomic_ref(x).fetch_add(1, std::memory_order_relaxed);
   };
-  parallel_for(chunks.size(), [&](std::size_t c) {
-    for (const Reference& r : chunks[c]) claim(grid.first[r.cell + 1]);
+  for_each_chunk(chunks.size(), [&](std::size_t c) {
+    for (const Reference& r : chunks[c]) claim(part.first[r.cell + 1]);
   });
-  std::partial_sum(grid.first.begin(), grid.first.end(), grid.first.begin());
-  grid.references.resize(grid.first.back());
-  std::vector<std::uint32_t> next = grid.first;
-  parallel_for(chunks.size(), [&](std::size_t c) {
-    for (const Reference& r : chunks[c]) grid.references[claim(next[r.cell])] = r.triangle;
+  std::partial_sum(part.first.begin(), part.first.end(), part.first.begin());
+  part.references.resize(part.first.back());
+  std::vector<std::uint32_t> next = part.first;
+  for_each_chunk(chunks.size(), [&](std::size_t c) {
+    for (const Reference& r : chunks[c]) part.references[claim(next[r.cell])] = r.triangle;
   });
+  if (chunks.size() == 1) return;  // and in the triangles' order
   parallel_chunks(cells, [&](std::size_t i) {
-    std::sort(grid.references.begin() + grid.first[i], grid.references.begin() + grid.first[i + 1]);
+    std::sort(part.references.begin() + part.first[i], part.references.begin() + part.first[i + 1]);
   });
 }
 
-/// A cell's clearance in one octant is 1 more than the least of its seven neighbours' there; beyond the grid
-/// all is clear.
-void find_clearances(GridCells& grid, unsigned octant) {
-  const int nx = grid.counts[0], ny = grid.counts[1], nz = grid.counts[2];
-  std::uint8_t* clearance = grid.clearance.data() + octant * grid.cell_count();
-  const auto width = static_cast<std::size_t>(nx);
-  const std::vector<std::uint8_t> clear(width, 255);
-  std::vector<std::uint8_t> beside(width);  // least of a column's three neighbours in other rows
-  const bool up_x = (octant & 1) != 0, up_y = (octant & 2) != 0, up_z = (octant & 4) != 0;
-  const auto row = [&](int y, int z) -> std::uint8_t* { return clearance + grid.index({0, y, z}); };
-  const auto neighbour_row = [&](int y, int z) -> const std::uint8_t* {
-    return y < 0 || z < 0 || y >= ny || z >= nz ? clear.data() : row(y, z);
-  };
-  for (int k = 0; k < nz; ++k) {
-    const int z = up_z ? nz - 1 - k : k, next_z = up_z ? z + 1 : z - 1;
-    for (int j = 0; j < ny; ++j) {
-      const int y = up_y ? ny - 1 - j : j, next_y = up_y ? y + 1 : y - 1;
-      const std::uint8_t* a = neighbour_row(next_y, z);
-      const std::uint8_t* b = neighbour_row(y, next_z);
-      const std::uint8_t* c = neighbour_row(next_y, next_z);
-      for (std::size_t x = 0; x < width; ++x) beside[x] = std::min(std::min(a[x], b[x]), c[x]);
-      std::uint8_t* own = row(y, z);
-      std::uint8_t last = 255, last_beside = 255;
-      for (std::size_t i = 0; i < width; ++i) {
-        const std::size_t x = up_x ? width - 1 - i : i;
-        const std::uint8_t least =
-            std::min(std::min(last, last_beside), std::min(beside[x], std::uint8_t{254}));
-        last = own[x] == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(least + 1);
-        last_beside = beside[x];
-        own[x] = last;
-      }
-    }
-  }
-}
-
-/// To be called while the crowded cells still have their lists.
-void find_clearances(GridCells& grid) {
-  const std::size_t cells = grid.cell_count();
-  grid.clearance.resize(8 * cells);
-  parallel_for(8, [&](std::size_t octant) {
-    std::uint8_t* clearance = grid.clearance.data() + octant * cells;
-    for (std::size_t i = 0; i < cells; ++i) clearance[i] = grid.list(i).empty() ? 255 : 0;
-    find_clearances(grid, static_cast<unsigned>(octant));
-  });
-}
-
-void pack_vertices(std::span<const Triangle> triangles, GridCells& grid) {
-  grid.vertices.resize(9 * grid.references.size() + GridCells::kOverread);
-  parallel_chunks(grid.cell_count(), [&](std::size_t i) {
-    const auto list = grid.list(i);
-    float* out = grid.vertices.data() + 9ull * grid.first[i];
-    for (std::size_t j = 0; j < list.size(); ++j) {
-      const Triangle& t = triangles[list[j]];
-      const std::array<float, 9> coordinates{t.v0.x, t.v0.y, t.v0.z, t.v1.x, t.v1.y,
-                                             t.v1.z, t.v2.x, t.v2.y, t.v2.z};
-      for (std::size_t a = 0; a < 9; ++a) out[a * list.size() + j] = coordinates[a];
-    }
-  });
-}
-
-/// Takes the lists that children stand for out of the references.
-void empty_lists(GridCells& grid) {
-  std::vector<std::uint32_t> references, first;
-  std::size_t next = 0;
-  for (std::uint32_t i = 0; i < grid.cell_count(); ++i) {
-    first.push_back(static_cast<std::uint32_t>(references.size()));
-    if (next < grid.crowded.size() && grid.crowded[next] == i) {
-      ++next;
-      continue;
-    }
-    references.insert(references.end(), grid.list(i).begin(), grid.list(i).end());
-  }
-  first.push_back(static_cast<std::uint32_t>(references.size()));
-  grid.references = std::move(references);
-  grid.first = std::move(first);
-}
-
-GridCells build(const Content& content, double target, int depth);
+Part build(const Content& content, double target, int depth);
 
 /// A grid for a crowded list, if that takes its triangles apart.
 /// @param lo, hi  the cell, margin included
-std::optional<GridCells> split_crowd(const Content& parent, std::span<const std::uint32_t> list, Vec3d lo,
-                                     Vec3d hi, int depth) {
+std::optional<Part> split_crowd(const Content& parent, std::span<const std::uint32_t> list, Vec3d lo,
+                                Vec3d hi, int depth) {
   Bounds bounds;
   for (const std::uint32_t i : list) bounds.add(parent.triangles[i]);
   const double pad = kReachMargin * parent.reach;
@@ -244,48 +246,110 @@ std::optional<GridCells> split_crowd(const Content& parent, std::span<const std:
     hi[k] = std::min(hi[k], bounds.hi[k] + pad);
   }
   const auto size = static_cast<double>(list.size());
-  GridCells child = build({parent.triangles, list, lo, hi, parent.reach}, kChildDensity * size, depth + 1);
-  if (static_cast<double>(child.reference_count()) > kMaxCopies * size) return std::nullopt;
+  Part child = build({parent.triangles, list, lo, hi, parent.reach}, kChildDensity * size, depth + 1);
+  if (static_cast<double>(child.references.size()) > kMaxCopies * size) return std::nullopt;
   return child;
 }
 
 /// The lower corner of the cell with this index.
-Vec3d cell_corner(const GridCells& grid, std::size_t index) {
-  const auto nx = static_cast<std::size_t>(grid.counts[0]), ny = static_cast<std::size_t>(grid.counts[1]);
-  const Vec3d place(static_cast<double>(index % nx), static_cast<double>(index / nx % ny),
-                    static_cast<double>(index / nx / ny));
-  return grid.lo + place * grid.cell_size;
+Vec3d cell_corner(const Part& part, std::uint32_t index) {
+  const auto nx = static_cast<std::uint32_t>(part.level.counts[0]);
+  const auto ny = static_cast<std::uint32_t>(part.level.counts[1]);
+  return part.level.lo + Vec3d(index % nx, index / nx % ny, index / nx / ny) * part.cell_size;
 }
 
-/// Replaces crowded lists by grids.
-void split_crowds(const Content& content, GridCells& grid, int depth) {
+/// Gives crowded cells grids.
+void split_crowds(const Content& content, Part& part, int depth) {
   if (depth >= kMaxDepth) return;
   std::vector<std::uint32_t> crowded;
-  for (std::uint32_t i = 0; i < grid.cell_count(); ++i) {
-    if (grid.list(i).size() > kCrowd && grid.list(i).size() < content.selected.size()) crowded.push_back(i);
+  for (std::uint32_t i = 0; i < part.level.cell_count(); ++i) {
+    if (part.list(i).size() > kCrowd && part.list(i).size() < content.selected.size()) crowded.push_back(i);
   }
   if (crowded.empty()) return;
-  std::vector<std::optional<GridCells>> children(crowded.size());
+  std::vector<std::optional<Part>> children(crowded.size());
   parallel_for(crowded.size(), [&](std::size_t i) {
-    const Vec3d lo = cell_corner(grid, crowded[i]);
-    children[i] = split_crowd(content, grid.list(crowded[i]), lo - grid.margin,
-                              lo + grid.cell_size + grid.margin, depth);
+    const Vec3d lo = cell_corner(part, crowded[i]);
+    children[i] = split_crowd(content, part.list(crowded[i]), lo - part.margin,
+                              lo + part.cell_size + part.margin, depth);
   });
   for (std::size_t i = 0; i < crowded.size(); ++i) {
     if (!children[i]) continue;
-    grid.crowded.push_back(crowded[i]);
-    grid.children.push_back(std::move(*children[i]));
+    part.crowded.push_back(crowded[i]);
+    part.children.push_back(std::move(*children[i]));
   }
-  empty_lists(grid);
 }
 
-GridCells build(const Content& content, double target, int depth) {
-  GridCells grid = lay_out(content, target);
-  sort_into_lists(find_references(content, grid), grid);
-  find_clearances(grid);
-  split_crowds(content, grid, depth);
-  pack_vertices(content.triangles, grid);
-  return grid;
+Part build(const Content& content, double target, int depth) {
+  Part part = lay_out(content, target);
+  sort_into_lists(find_references(content, part), part);
+  split_crowds(content, part, depth);
+  return part;
+}
+
+/// Lists of references that are equal share their memory: cells that one large triangle passes through.
+class DistinctLists {
+ public:
+  /// A record for the list, which is appended to `references` unless an equal one is known.
+  GridCells::Record add(std::span<const std::uint32_t> list, std::vector<std::uint32_t>& references) {
+    const GridCells::Record record{static_cast<std::uint32_t>(references.size()),
+                                   static_cast<std::uint32_t>(list.size())};
+    std::uint64_t hash = list.size();
+    for (const std::uint32_t i : list) hash = (hash ^ i) * 0x9E3779B97F4A7C15u, hash ^= hash >> 32;
+    GridCells::Record& known = known_[hash % known_.size()];
+    if (known.count == list.size() && std::equal(list.begin(), list.end(), references.begin() + known.begin))
+      return known;
+    references.insert(references.end(), list.begin(), list.end());
+    return known = record;
+  }
+
+ private:
+  std::vector<GridCells::Record> known_{4096, GridCells::Record{0, 0}};  // the last with its hash
+};
+
+/// Appends the level of the part, without its children, and the records of its occupied cells. `children`
+/// are the levels to come.
+void append_level(const Part& part, std::uint32_t children, DistinctLists& lists, GridCells& grid) {
+  GridLevel level = part.level;
+  level.words = static_cast<std::uint32_t>(grid.occupied.size());
+  grid.levels.push_back(level);
+  std::size_t next = 0;
+  for (std::uint32_t i = 0; i < level.cell_count(); ++i) {
+    if (i % 32 == 0) grid.occupied.push_back({0, static_cast<std::uint32_t>(grid.records.size())});
+    const auto list = part.list(i);
+    if (list.empty()) continue;
+    grid.occupied.back().bits |= 1u << i % 32;
+    if (next < part.crowded.size() && part.crowded[next] == i) {
+      grid.records.push_back({children + static_cast<std::uint32_t>(next++), GridCells::Record::kLevel});
+    } else {
+      grid.records.push_back(lists.add(list, grid.references));
+    }
+  }
+}
+
+/// The part and all below it, level by level.
+void append(const Part& root, GridCells& grid) {
+  std::vector<const Part*> parts{&root};
+  DistinctLists lists;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    append_level(*parts[i], static_cast<std::uint32_t>(parts.size()), lists, grid);
+    for (const Part& child : parts[i]->children) parts.push_back(&child);
+  }
+}
+
+void pack_vertices(std::span<const Triangle> triangles, GridCells& grid) {
+  grid.vertices.resize(9 * grid.references.size() + GridCells::kOverread);
+  parallel_chunks(grid.records.size(), [&](std::size_t i) {
+    const auto [begin, count] = grid.records[i];
+    if (count == GridCells::Record::kLevel) return;
+    float* out = grid.vertices.data() + 9ull * begin;
+    for (std::size_t j = 0; j < count; ++j) {
+      const Triangle& t = triangles[grid.references[begin + j]];
+      const std::array<float, 9> coordinates{t.v0.x, t.v0.y, t.v0.z, t.v1.x, t.v1.y,
+                                             t.v1.z, t.v2.x, t.v2.y, t.v2.z};
+      for (std::size_t a = 0; a < 9; ++a) out[a * count + j] = coordinates[a];
+    }
+  });
+  grid.references.resize(grid.references.size() + GridCells::kOverread);
 }
 
 }  // namespace
@@ -312,35 +376,20 @@ std::array<int, 3> cell_counts(const Vec3d& extent, double target) {
     const auto axis = static_cast<std::size_t>(k);
     if (split[axis])
       counts[axis] = static_cast<int>(
-          std::clamp(std::round(extent[k] * per_unit), 1.0, double{GridCells::kMaxCellsPerAxis}));
+          std::clamp(std::round(extent[k] * per_unit), 1.0, double{GridLevel::kMaxCellsPerAxis}));
   }
   return counts;
 }
 
-const GridCells& GridCells::child(std::size_t i) const {
-  const auto place = std::lower_bound(crowded.begin(), crowded.end(), i);
-  return children[static_cast<std::size_t>(place - crowded.begin())];
-}
-
 std::size_t GridCells::memory_bytes() const {
-  std::size_t bytes = clearance.capacity() + vertices.capacity() * sizeof(float) +
-                      (first.capacity() + references.capacity() + crowded.capacity()) * sizeof(std::uint32_t);
-  for (const GridCells& child : children) bytes += sizeof(GridCells) + child.memory_bytes();
-  return bytes;
-}
-
-std::size_t GridCells::reference_count() const {
-  return std::accumulate(
-      children.begin(), children.end(), references.size(),
-      [](std::size_t sum, const GridCells& child) { return sum + child.reference_count(); });
+  return levels.capacity() * sizeof(GridLevel) + occupied.capacity() * sizeof(Word) +
+         records.capacity() * sizeof(Record) + references.capacity() * sizeof(std::uint32_t) +
+         vertices.capacity() * sizeof(float);
 }
 
 GridCells build_grid_cells(std::span<const Triangle> triangles, const GridResolution& resolution) {
-  if (triangles.empty()) {
-    GridCells grid;
-    grid.first = {0};
-    return grid;
-  }
+  GridCells grid;
+  if (triangles.empty()) return grid;
   const Bounds bounds = bounds_of(triangles);
   const Vec3d lo(bounds.lo), hi(bounds.hi);
   const double reach = max_norm(hi - lo);
@@ -348,8 +397,12 @@ GridCells build_grid_cells(std::span<const Triangle> triangles, const GridResolu
   const double pad = 16 * kRoundoff * (reach + std::max(max_norm(lo), max_norm(hi)));
   std::vector<std::uint32_t> all(triangles.size());
   std::iota(all.begin(), all.end(), 0u);
-  return build({triangles, all, lo - Vec3d(pad), hi + Vec3d(pad), reach},
-               target_cells(resolution, triangles.size()), 0);
+  grid.trusted_distance = kTrustedSizes * reach;
+  append(build({triangles, all, lo - Vec3d(pad), hi + Vec3d(pad), reach},
+               target_cells(resolution, triangles, hi - lo), 0),
+         grid);
+  pack_vertices(triangles, grid);
+  return grid;
 }
 
 }  // namespace lemma

@@ -10,60 +10,73 @@
 
 namespace lemma {
 
-/// A box cut into equal cells, each with the list of the triangles that it may contain a part of.
-///
-/// Each empty cell knows its clearance, so that a walk leaps over empty space. Source: Cohen, Sheffer,
-/// Proximity Clouds: an Acceleration Technique for 3D Grid Traversal, The Visual Computer 11(1), 1994; here
-/// one for each octant of directions, since most rays start beside what they will not meet. A cell crowded
-/// with triangles small against it holds a grid of its own in place of a list. Source: Kalojanov, Billeter,
-/// Slusallek, Two-Level Grids for Ray Tracing on GPUs, Computer Graphics Forum 30(2), 2011.
-///
-/// Every triangle within `margin` of a cell is in its list, so a walk that rounding leads into the neighbour
-/// of the right cell still meets every triangle it should.
-struct GridCells {
+/// A box cut into equal cells, of which the occupied ones have records. One line of the cache.
+struct alignas(64) GridLevel {
   /// So many roundings are still small against the margin (GridWalk).
   static constexpr int kMaxCellsPerAxis = 4096;
 
-  Vec3d lo{0}, hi{0};                     // of the box; nothing lies on its boundary
-  std::array<int, 3> counts{1, 1, 1};     // cells an axis
-  Vec3d cell_size{0}, cells_per_unit{0};  // size of a cell [scene units], and its reciprocal
-  Vec3d margin{0};                        // a cell is widened by it on each side when triangles are sorted in
+  Vec3d lo{0};                         // lower corner of the box; nothing lies on its boundary
+  Vec3d cells_per_unit{0};             // cells an axis / size of the box [1 / scene units]
+  std::array<int, 3> counts{1, 1, 1};  // cells an axis
+  std::uint32_t words = 0;             // where its part of GridCells::occupied begins
 
-  std::vector<std::uint8_t> clearance;  // of all cells for each octant: see clearances()
-  std::vector<std::uint32_t> first;     // where each cell's list begins in `references`; one more at the end
+  [[nodiscard]] std::uint32_t index(const std::array<int, 3>& cell) const {
+    return static_cast<std::uint32_t>((cell[2] * counts[1] + cell[1]) * counts[0] + cell[0]);
+  }
+  [[nodiscard]] std::uint32_t cell_count() const {
+    return index({counts[0] - 1, counts[1] - 1, counts[2] - 1}) + 1;
+  }
+};
+
+/// The scene in equal cells, each with the list of the triangles that it may contain a part of. A cell
+/// crowded with triangles small against it holds a grid of its own in place of a list. Source: Kalojanov,
+/// Billeter, Slusallek, Two-Level Grids for Ray Tracing on GPUs, Computer Graphics Forum 30(2), 2011.
+///
+/// Every triangle within a margin of a cell is in its list, so a walk that rounding leads into the neighbour
+/// of the right cell still meets every triangle it should.
+struct GridCells {
+  /// 32 cells of a level: a bit for each that is occupied, and how many are in all words before.
+  struct Word {
+    std::uint32_t bits, before;
+  };
+  /// An occupied cell: a list of `count` references, or the grid levels[begin] if count is kLevel.
+  struct Record {
+    static constexpr std::uint32_t kLevel = 0xFFFFFFFFu;
+    std::uint32_t begin, count;
+  };
+
+  std::vector<GridLevel> levels;          // the whole scene first; none if there are no triangles
+  std::vector<Word> occupied;             // of the levels, one after the other
+  std::vector<Record> records;            // of the occupied cells, in their order
   std::vector<std::uint32_t> references;  // triangle indices, ascending within a list
   std::vector<float> vertices;            // of the references, list by list: see packed()
-  std::vector<GridCells> children;        // grids of the crowded cells, whose own lists are empty
-  std::vector<std::uint32_t> crowded;     // index of the cell of each child, ascending
+  /// Between the origins of rays and the scene's furthest corner, in coordinates: hits of rays that start so
+  /// far away err by no more than the cells' margin.
+  double trusted_distance = 0;
 
-  [[nodiscard]] std::size_t cell_count() const { return first.size() - 1; }
-  [[nodiscard]] std::size_t index(const std::array<int, 3>& cell) const {
-    return (static_cast<std::size_t>(cell[2]) * static_cast<std::size_t>(counts[1]) +
-            static_cast<std::size_t>(cell[1])) *
-               static_cast<std::size_t>(counts[0]) +
-           static_cast<std::size_t>(cell[0]);
+  [[nodiscard]] bool is_occupied(const GridLevel& level, std::uint32_t cell) const {
+    return (occupied[level.words + cell / 32].bits >> cell % 32 & 1) != 0;
   }
-  [[nodiscard]] std::span<const std::uint32_t> list(std::size_t cell) const {
-    return {references.data() + first[cell], references.data() + first[cell + 1]};
-  }
-
-  /// For each cell the size of the largest cube of empty cells of which it is a corner and which extends up
-  /// axis k if bit k of the octant is set, else down; 0 if the cell is occupied. nullptr if there are no
-  /// cells.
-  [[nodiscard]] const std::uint8_t* clearances(unsigned octant) const {
-    return clearance.empty() ? nullptr : clearance.data() + octant * cell_count();
+  /// @param cell  an occupied one
+  [[nodiscard]] const Record& record(const GridLevel& level, std::uint32_t cell) const {
+    const Word& word = occupied[level.words + cell / 32];
+    const std::uint32_t below = word.bits & ((1u << cell % 32) - 1);
+    return records[word.before + static_cast<std::uint32_t>(__builtin_popcount(below))];
   }
 
   /// The vertices of a cell's list as nine arrays of its length, v0.x v0.y v0.z v1.x ... v2.z. Reading up to
-  /// kOverread floats past the last array is safe.
-  [[nodiscard]] const float* packed(std::size_t cell) const { return vertices.data() + 9ull * first[cell]; }
+  /// kOverread floats past the last array is safe, and as many indices past the last list.
+  [[nodiscard]] const float* packed(const Record& list) const { return vertices.data() + 9ull * list.begin; }
   static constexpr std::size_t kOverread = 8;
 
-  /// The grid of a crowded cell: an occupied one whose list is empty.
-  [[nodiscard]] const GridCells& child(std::size_t cell) const;
+  /// Triangle i of a cell's list.
+  [[nodiscard]] Triangle triangle(const Record& list, std::size_t i) const {
+    const float* p = packed(list) + i;
+    const std::size_t n = list.count;
+    return {{p[0], p[n], p[2 * n]}, {p[3 * n], p[4 * n], p[5 * n]}, {p[6 * n], p[7 * n], p[8 * n]}};
+  }
 
   [[nodiscard]] std::size_t memory_bytes() const;
-  [[nodiscard]] std::size_t reference_count() const;  // children included
 };
 
 /// Numbers of cells an axis so that cells are about cubes and about `target` in all. An axis too short for

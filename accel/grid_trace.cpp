@@ -1,7 +1,6 @@
 #include "accel/grid_trace.h"
 
 #include <bit>
-#include <cstring>
 
 #include "accel/grid_walk.h"
 #include "src/core/instruction_sets.h"
@@ -60,14 +59,15 @@ class CellTest {
 
   /// intersect() with each triangle of the cell's list.
   template <bool kAny>
-  HWY_INLINE bool operator()(const GridCells& grid, std::size_t cell, Hit& best) const {
-    const std::size_t begin = grid.first[cell], size = grid.first[cell + 1] - begin;
-    const float* packed = grid.packed(cell);
+  HWY_INLINE bool operator()(const GridCells& grid, const GridCells::Record& list, Hit& best) const {
+    const std::size_t begin = list.begin, size = list.count;
+    const float* packed = grid.packed(list);
     bool hit = false;
     for (std::size_t i = 0; i < size; i += hn::Lanes(kLanes)) {
       for (std::uint64_t rest = candidates(packed + i, size, size - i, best.t); rest != 0; rest &= rest - 1) {
         const std::size_t j = i + static_cast<std::size_t>(std::countr_zero(rest));
-        hit |= intersect(ray_, unpack(packed + j, size), grid.references[begin + j], best);
+        if (grid.references[begin + j] == best.triangle && best.t < ray_.t_max) continue;
+        hit |= intersect(ray_, grid.triangle(list, j), grid.references[begin + j], best);
         if (kAny && hit) return true;
       }
     }
@@ -102,11 +102,9 @@ class CellTest {
     auto may_hit = hn::And(line_may_pass(e), hn::FirstN(kLanes, count));
     if (HWY_LIKELY(hn::AllFalse(kLanes, may_hit))) return 0;
     if constexpr (kPreciseEdges) may_hit = hn::And(may_hit, distance_may_count(e, a.z, b.z, c.z, t_max));
-    std::uint8_t bytes[8] = {};
+    std::uint8_t bytes[8];
     hn::StoreMaskBits(kLanes, may_hit, bytes);
-    std::uint64_t bits;
-    std::memcpy(&bits, bytes, sizeof(bits));
-    return bits;
+    return bytes[0];
   }
 
   /// No two edge functions have opposite signs. Not a number compares as false and so rules out nothing.
@@ -134,43 +132,190 @@ class CellTest {
     return hn::Not(hn::Or(before, behind));
   }
 
-  static Triangle unpack(const float* p, std::size_t size) {
-    return {{p[0], p[size], p[2 * size]},
-            {p[3 * size], p[4 * size], p[5 * size]},
-            {p[6 * size], p[7 * size], p[8 * size]}};
-  }
-
   const ShearedRay& ray_;
   const Floats sx_, sy_, ox_, oy_, oz_;
 };
 
-/// Walks through the grid and tests the cells. A hit may lie beyond its cell: it stands only when no later
-/// cell can hold a nearer one, which is why the walk's limit is best.t.
-template <bool kAny>
-bool trace(const GridCells& grid, const WalkedRay& ray, const CellTest& test, Hit& best) {
-  for (GridWalk walk(grid, ray, best.t); !walk.done(); walk.step(best.t)) {
-    const std::size_t cell = walk.cell();
-    const bool crowded = grid.first[cell] == grid.first[cell + 1];
-    const bool hit = HWY_UNLIKELY(crowded) ? trace<kAny>(grid.child(cell), ray, test, best)
-                                           : test.operator()<kAny>(grid, cell, best);
-    if (kAny && hit) return true;
+/// As many slices of a grid at a time as there are lanes: a 3D DDA in parallel. In each slice the ray passes
+/// one to three cells. Source: Amanatides, Woo, A Fast Voxel Traversal Algorithm for Ray Tracing,
+/// Eurographics 1987; by slices after Wald, Ize, Kensler, Knoll, Parker, Ray Tracing Animated Scenes using
+/// Coherent Grid Traversal, ACM TOG 25(3), 2006, where they cut packets of rays.
+///
+/// Where a ray passes a cell's edge or corner within rounding either neighbour may be left out or come first:
+/// the margin of the cells covers both.
+class Slices {
+ public:
+  using F = hn::CappedTag<float, 16>;
+  using I = hn::RebindToSigned<F>;
+  using Floats = hn::Vec<F>;
+  using Ints = hn::Vec<I>;
+  static constexpr F f{};
+  static constexpr I n{};
+  static HWY_INLINE int lanes() { return static_cast<int>(hn::Lanes(f)); }
+
+  /// Finds the occupied cells of the slices from `first` on that the ray enters at s <= reach.
+  HWY_INLINE Slices(const GridCells::Word* occupied, const GridCrossing& ray, int first, float reach) {
+    const Ints number = hn::Iota(n, first);
+    const Floats leave = hn::Add(hn::ConvertTo(f, number), hn::Set(f, ray.to_plane));
+    const Floats enter = hn::Max(hn::Sub(leave, hn::Set(f, 1)), hn::Zero(f));
+    const Ints slice = hn::Add(hn::Mul(number, hn::Set(n, ray.step)), hn::Set(n, ray.slice));
+    const auto inside = hn::And(hn::Le(enter, hn::Set(f, reach)),
+                                hn::RebindMask(f, hn::Eq(slice, clamp(slice, ray.count - 1))));
+    const Part u = part(ray.side[0], enter, leave), v = part(ray.side[1], enter, leave);
+    const Ints a = hn::Add(hn::Mul(slice, hn::Set(n, ray.stride)), hn::Add(u.index, v.index));
+    const Ints b = hn::Add(a, hn::Add(u.turn, v.turn));
+    const auto u_first = hn::Lt(u.s, v.s);
+    const Ints m = hn::Add(a, hn::IfThenElse(hn::RebindMask(n, u_first), u.turn, v.turn));
+    const auto u_turns = hn::RebindMask(f, hn::Ne(u.turn, hn::Zero(n)));
+    const auto v_turns = hn::RebindMask(f, hn::Ne(v.turn, hn::Zero(n)));
+    const auto both = hn::And(u_turns, v_turns);
+    const Floats soon = hn::IfThenElse(u_first, u.s, v.s), late = hn::IfThenElse(u_first, v.s, u.s);
+    const Floats turn = hn::IfThenElse(both, late, hn::IfThenElse(u_turns, u.s, v.s));
+    const int* words = reinterpret_cast<const int*>(occupied);
+    bits_ = keep(0, a, enter, inside, words);
+    bits_ |= keep(1, m, soon, hn::And(inside, both), words) << 1;
+    bits_ |= keep(2, b, turn, hn::And(inside, hn::Or(u_turns, v_turns)), words) << 2;
   }
-  return false;
-}
+
+  [[nodiscard]] HWY_INLINE bool done() const { return bits_ == 0; }
+  HWY_INLINE void next() { bits_ &= bits_ - 1; }
+  [[nodiscard]] HWY_INLINE std::uint32_t cell() const { return static_cast<std::uint32_t>(cells_[place()]); }
+  /// s at which the ray enters the cell.
+  [[nodiscard]] HWY_INLINE float enter() const { return enter_[place()]; }
+
+ private:
+  /// The ray's way on a side axis in each slice: its part of the cells' index, the index's change where it
+  /// goes to the next cell and else 0, and the s at which it does.
+  struct Part {
+    Ints index, turn;
+    Floats s;
+  };
+
+  static HWY_INLINE Ints clamp(Ints x, int last) {
+    return hn::Min(hn::Max(x, hn::Zero(n)), hn::Set(n, last));
+  }
+
+  static HWY_INLINE Part part(const GridCrossing::Side& side, Floats enter, Floats leave) {
+    const Floats start = hn::Set(f, side.start), slope = hn::Set(f, side.slope);
+    const auto place = [&](Floats s) {
+      return clamp(hn::ConvertTo(n, hn::Add(hn::Mul(s, slope), start)), side.last);
+    };
+    const Ints from = place(enter), to = place(leave);
+    const bool up = side.slope > 0;
+    const Floats plane = hn::ConvertTo(f, hn::Add(from, hn::Set(n, up ? 1 : 0)));
+    const Ints turn = hn::IfThenZeroElse(hn::Eq(from, to), hn::Set(n, up ? side.stride : -side.stride));
+    return {hn::Mul(from, hn::Set(n, side.stride)), turn,
+            hn::Mul(hn::Sub(plane, start), hn::Set(f, side.pace))};
+  }
+
+  /// Bit 4 i is set if cell i is of interest and occupied.
+  HWY_INLINE std::uint64_t keep(std::size_t order, Ints cell, Floats enter, hn::Mask<F> wanted,
+                                const int* words) {
+    hn::Store(cell, n, cells_ + 16 * order);
+    hn::Store(enter, f, enter_ + 16 * order);
+    const Ints index = hn::IfThenElseZero(hn::RebindMask(n, wanted), cell);
+    const Ints word = hn::GatherIndex(n, words, hn::ShiftLeft<1>(hn::ShiftRight<5>(index)));
+    const Ints bit = hn::Shl(hn::Set(n, 1), hn::And(index, hn::Set(n, 31)));
+    const auto occupied = hn::And(hn::TestBit(word, bit), hn::RebindMask(n, wanted));
+    std::uint8_t bytes[8];
+    hn::StoreMaskBits(n, occupied, bytes);
+    std::uint64_t bits = bytes[0];
+    if (hn::Lanes(n) > 8) bits |= static_cast<std::uint64_t>(bytes[1]) << 8;
+    bits = (bits | bits << 24) & 0x000000FF000000FF;
+    bits = (bits | bits << 12) & 0x000F000F000F000F;
+    bits = (bits | bits << 6) & 0x0303030303030303;
+    return (bits | bits << 3) & 0x1111111111111111;
+  }
+
+  [[nodiscard]] HWY_INLINE std::size_t place() const {
+    const auto bit = static_cast<std::size_t>(std::countr_zero(bits_));
+    return 16 * (bit % 4) + bit / 4;
+  }
+
+  alignas(64) int cells_[48];
+  alignas(64) float enter_[48];
+  std::uint64_t bits_;
+};
+
+/// The lists last tested: cells that one large triangle passes through share theirs (build_grid_cells).
+class LastLists {
+ public:
+  /// Whether the list is none of these; from now on it is.
+  HWY_INLINE bool is_new(std::uint32_t list) {
+    if (list == last_ || list == before_) return false;
+    before_ = last_;
+    last_ = list;
+    return true;
+  }
+
+ private:
+  std::uint32_t last_ = GridCells::Record::kLevel, before_ = GridCells::Record::kLevel;
+};
+
+/// Walks through grids and tests the cells. A hit may lie beyond its cell: it stands only when no later cell
+/// can hold a nearer one, which is why the walk reaches as far as best.t.
+template <bool kAny>
+class Walk {
+ public:
+  HWY_INLINE Walk(const GridCells& grid, const Ray& ray, const ShearedRay& sheared, Hit& best)
+      : grid_(grid), ray_(ray), test_(sheared), best_(best) {}
+
+  /// Through one level and those of its cells; says whether there is a hit, if any will do.
+  bool through(const GridLevel& level) {
+    const GridCrossing crossing(level, ray_, best_.t);
+    if (crossing.misses) return false;
+    bool hit = false;
+    float reach = crossing.end;
+    for (int first = 0; first < crossing.count && crossing.begins(first) <= reach; first += Slices::lanes()) {
+      for (Slices slices(grid_.occupied.data() + level.words, crossing, first, reach);
+           !slices.done() && slices.enter() <= reach; slices.next()) {
+        if (!visit(grid_.record(level, slices.cell()))) continue;
+        if (kAny) return true;
+        hit = true;
+        reach = crossing.reach(best_.t);
+      }
+    }
+    return hit;
+  }
+
+ private:
+  HWY_INLINE bool visit(const GridCells::Record& cell) {
+    if (cell.count == GridCells::Record::kLevel) return through(grid_.levels[cell.begin]);
+    return tested_.is_new(cell.begin) && test_.template operator()<kAny>(grid_, cell, best_);
+  }
+
+  const GridCells& grid_;
+  const Ray& ray_;
+  const CellTest test_;
+  Hit& best_;
+  LastLists tested_;
+};
 
 void closest(const GridCells& grid, const Ray& ray, const ShearedRay& sheared, Hit& best) {
-  trace<false>(grid, WalkedRay(ray), CellTest(sheared), best);
+  Walk<false>(grid, ray, sheared, best).through(grid.levels.front());
 }
 
 bool any(const GridCells& grid, const Ray& ray, const ShearedRay& sheared) {
   Hit best = no_hit(sheared);
-  return trace<true>(grid, WalkedRay(ray), CellTest(sheared), best);
+  return Walk<true>(grid, ray, sheared, best).through(grid.levels.front());
+}
+
+void walk(const GridCells& grid, const Ray& ray, std::vector<std::uint32_t>& cells) {
+  const GridLevel& level = grid.levels.front();
+  const GridCrossing crossing(level, ray, ray.t_max);
+  if (crossing.misses) return;
+  for (int first = 0; crossing.begins(first) <= crossing.end && first < crossing.count;
+       first += Slices::lanes()) {
+    for (Slices slices(grid.occupied.data() + level.words, crossing, first, crossing.end); !slices.done();
+         slices.next())
+      cells.push_back(slices.cell());
+  }
 }
 
 }  // namespace
 
 GridTrace grid_trace() {
-  return {closest, any, hwy::TargetName(HWY_TARGET)};
+  return {closest, any, walk, hwy::TargetName(HWY_TARGET)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,20 @@ double median(std::vector<double> values) {
 struct Comparison {
   double grid, embree, speed;  // [s], [s], embree / grid
 };
+
+/// Time that the calling thread was running: what else the machine does takes turns with it, and does not
+/// count.
+template <class Action>
+double cpu_seconds(const Action& action) {
+  const auto now = [] {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double start = now();
+  action();
+  return now() - start;
+}
 
 template <class Measure>
 Comparison compare(int rounds, const Measure& measure) {
@@ -66,7 +81,7 @@ nlohmann::json compare_case(const std::string& name, int rounds, double& log_sum
   fmt::print(" {:>7.2f}", built.speed);
   for (const Named<RayKind>& kind : ray_kinds()) {
     const Comparison traced = compare(rounds, [&](std::string_view accel) {
-      return seconds([&] { trace(accel == "grid" ? *grid : *embree, rays, kind.value); });
+      return cpu_seconds([&] { trace(accel == "grid" ? *grid : *embree, rays, kind.value); });
     });
     const auto count = static_cast<double>((rays.*kind.value.rays).size());
     json["trace"][std::string(kind.name)] = {{"grid_rays_per_s", count / traced.grid},

@@ -100,7 +100,7 @@ void add_accelerator_options(CLI::App& app, RenderOptions& o) {
              .type = "density|27n|N",
              .fallback = "density",
              .expected = fmt::format("one of: density, 27n, or a whole number from 1 to {}", kMostCells),
-             .help = "Cells of the grid: density (about 2 a triangle), 27n (27 a triangle), or a number (the "
+             .help = "Cells of the grid: density (by a model of cost), 27n (27 a triangle), or a number (the "
                      "report's is 100000)"},
             into(o.accel_options.grid, parse_grid_cells));
 }

@@ -102,7 +102,7 @@ TEST(GridParity, CrowdedCells) {
   auto triangles = test::inward_box({-10, -10, -10}, {10, 10, 10});
   const auto ball = test::sphere_mesh({3.1f, 2.2f, 1.3f}, 0.05f, 30, 40);
   triangles.insert(triangles.end(), ball.begin(), ball.end());
-  ASSERT_GT(build_grid_cells(triangles, {}).children.size(), 0u);
+  ASSERT_GT(build_grid_cells(triangles, {}).levels.size(), 1u);
   const auto grid = make("grid", triangles), brute = make("brute", triangles);
   expect_same_hits(*grid, *brute, rays_around(bounds_of(triangles), 300));
   expect_same_hits(*grid, *brute, rays_around(bounds_of(ball), 1000));
@@ -113,6 +113,21 @@ TEST(GridParity, TrianglesThatDoNotComeApart) {
   std::vector<Triangle> fan;
   for (const Triangle& t : test::random_triangles(2000, 0.3f, 40)) fan.push_back({Vec3(0.5f), t.v1, t.v2});
   expect_same_hits(*make("grid", fan), *make("brute", fan), rays_around(bounds_of(fan), 500));
+}
+
+/// Hits err in proportion to the distance: the further away, the more cells beside the ray hold candidates.
+TEST(GridParity, OriginsAtAnyDistance) {
+  for (const float size : {0.02f, 0.3f}) {
+    const auto triangles = test::random_triangles(1000, size, 41);
+    std::vector<Ray> rays;
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+      Sampler random(42, i, 0);
+      const Vec3 to = triangles[i % triangles.size()].v0 + (random_point(random) - Vec3(0.5f)) * size;
+      const Vec3 from = random_direction(random) * std::pow(10.0f, 8 * random.next());
+      rays.push_back({from, i % 4 == 0 ? to - from : normalize(to - from)});
+    }
+    expect_same_hits(*make("grid", triangles), *make("brute", triangles), rays);
+  }
 }
 
 TEST(GridParity, FlatScenesAndSingleTriangles) {

@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 
 #include "accel/grid_cells.h"
 #include "accel/grid_overlap.h"
-#include "accel/grid_walk.h"
+#include "accel/grid_trace.h"
 #include "src/core/warp.h"
 #include "tests/support/meshes.h"
 
@@ -26,12 +27,11 @@ TEST(CellCounts, FollowTheShapeOfTheBox) {
 TEST(GridCells, RulesOfResolution) {
   const auto triangles = test::random_triangles(1000, 0.05f, 1);
   const auto cells = [&](const GridResolution& resolution) {
-    const GridCells grid = build_grid_cells(triangles, resolution);
-    return grid.counts[0] * grid.counts[1] * grid.counts[2];
+    return build_grid_cells(triangles, resolution).levels.front().cell_count();
   };
   // Rounding each axis to whole cells changes the number by less than half a cell an axis: 1.5 / 10 of 1000
   // cells.
-  EXPECT_NEAR(static_cast<double>(cells({})), 2000, 0.12 * 2000);
+  EXPECT_NEAR(static_cast<double>(cells({})), 2000, 0.12 * 2000);  // few triangles: 2 a triangle
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::twenty_seven, 0})), 27000, 0.05 * 27000);
   EXPECT_NEAR(static_cast<double>(cells({GridResolution::Rule::density, 100000})), 100000, 0.04 * 100000);
 }
@@ -60,71 +60,87 @@ TEST(BoxOverlap, DeniesBoxesBesideTheTriangle) {
   EXPECT_FALSE(overlap.with_box_at({0.8, 0.8, 0}));     // beyond its hypotenuse
 }
 
-/// The cell that p lies in, if it is occupied and p not so near its faces that a walk may miss it.
-std::optional<std::size_t> occupied_cell_at(const GridCells& grid, const Vec3d& p) {
-  std::array<int, 3> cell{};
+/// The triangles listed where p lies in the level; `cell` is its cell. None if p is out of it or so near a
+/// cell's faces that a walk may miss the cell.
+std::vector<std::uint32_t> listed_at(const GridCells& grid, const GridLevel& level, const Vec3d& p,
+                                     std::optional<std::uint32_t>& cell) {
+  cell.reset();
+  std::array<int, 3> place{};
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    const double position = (p[k] - grid.lo[k]) * grid.cells_per_unit[k];
+    const double position = (p[k] - level.lo[k]) * level.cells_per_unit[k];
     const double rest = position - std::floor(position);
-    if (rest < 0x1p-10 || rest > 1 - 0x1p-10 || position < 0 || position >= grid.counts[axis])
-      return std::nullopt;
-    cell[axis] = static_cast<int>(position);
+    if (rest < 0x1p-10 || rest > 1 - 0x1p-10 || position < 0 || position >= level.counts[axis]) return {};
+    place[axis] = static_cast<int>(position);
   }
-  const std::size_t index = grid.index(cell);
-  return grid.clearances(0)[index] == 0 ? std::optional(index) : std::nullopt;
+  if (!grid.is_occupied(level, level.index(place))) return {};
+  cell = level.index(place);
+  const GridCells::Record& record = grid.record(level, *cell);
+  if (record.count == GridCells::Record::kLevel) {
+    std::optional<std::uint32_t> inner;
+    return listed_at(grid, grid.levels[record.begin], p, inner);
+  }
+  const auto list = grid.references.begin() + record.begin;
+  return {list, list + record.count};
 }
 
-/// Steps along rays find no occupied cell that the walk does not visit.
+/// On every level: 3000 triangles, of which 2000 in a hundredth of the scene's volume.
+GridCells grid_of_levels(std::vector<Triangle>& triangles) {
+  triangles = test::random_triangles(1000, 0.05f, 4);
+  for (Triangle t : test::random_triangles(2000, 0.05f, 7)) {
+    t = {t.v0 * 0.2f, t.v1 * 0.2f, t.v2 * 0.2f};
+    triangles.push_back(t);
+  }
+  return build_grid_cells(triangles, {});
+}
+
+/// Points of triangles, moved by half the cells' margin in a random direction, lie in cells that list them.
+TEST(GridCells, ListTheTrianglesOfTheirPointsMarginIncluded) {
+  std::vector<Triangle> triangles;
+  const GridCells grid = grid_of_levels(triangles);
+  ASSERT_GT(grid.levels.size(), 1u);
+  int found = 0;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    Sampler random(8, i, 0);
+    for (int j = 0; j < 20; ++j) {
+      const auto [b1, b2] = uniform_triangle(random.next_2d());
+      Vec3d p = point_at(triangles[i], b1, b2);
+      const double cell_size = 0.2 / 64;  // less than the smallest cells'
+      for (int k = 0; k < 3; ++k) p[k] += (random.next() < 0.5f ? -0.5 : 0.5) * cell_size / 256;
+      std::optional<std::uint32_t> cell;
+      const auto list = listed_at(grid, grid.levels.front(), p, cell);
+      if (list.empty()) continue;
+      ASSERT_TRUE(std::find(list.begin(), list.end(), i) != list.end()) << i << ' ' << p;
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 40000);
+}
+
+/// Steps along rays find no occupied cell that the walk does not visit, whatever the instruction set.
 TEST(GridWalk, VisitsTheOccupiedCellsAlongTheRay) {
-  const GridCells grid = build_grid_cells(test::random_triangles(300, 0.05f, 4), {});
+  std::vector<Triangle> triangles;
+  const GridCells grid = grid_of_levels(triangles);
+  const GridLevel& level = grid.levels.front();
   std::size_t visits = 0;
-  for (std::uint32_t i = 0; i < 2000; ++i) {
-    Sampler random(5, i, 0);
-    const Vec3 from = test::random_point(random) * 3.0f - Vec3(1), to = test::random_point(random);
-    const Ray ray{from, to - from};
-    std::set<std::size_t> visited;
-    for (GridWalk walk(grid, WalkedRay(ray), ray.t_max); !walk.done(); walk.step(ray.t_max)) {
-      EXPECT_TRUE(visited.insert(walk.cell()).second) << "a cell was visited twice";
-    }
-    visits += visited.size();
-    for (double t = 0; t < 3; t += 0.01) {
-      const auto cell = occupied_cell_at(grid, Vec3d(ray.origin) + Vec3d(ray.direction) * t);
-      EXPECT_TRUE(!cell || visited.contains(*cell));
-    }
-  }
-  EXPECT_GT(visits, 2000u);
-}
-
-/// The cube that a clearance speaks of is empty, and the next larger one is not or leaves the grid's far
-/// side.
-TEST(GridCells, ClearancesAreThoseOfTheLargestEmptyCubes) {
-  const GridCells grid =
-      build_grid_cells(test::random_triangles(12, 0.1f, 6), {GridResolution::Rule::density, 1000});
-  const auto [nx, ny, nz] = grid.counts;
-  const auto cube_is_empty = [&](int x, int y, int z, unsigned octant, int size) {
-    const auto end = [&](int from, unsigned bit) {
-      return (octant & bit) != 0 ? from + size - 1 : from - size + 1;
-    };
-    const auto inside = [](int i, int n) { return std::clamp(i, 0, n - 1); };
-    const int x1 = inside(end(x, 1), nx), y1 = inside(end(y, 2), ny), z1 = inside(end(z, 4), nz);
-    for (int w = std::min(z, z1); w <= std::max(z, z1); ++w)
-      for (int v = std::min(y, y1); v <= std::max(y, y1); ++v)
-        for (int u = std::min(x, x1); u <= std::max(x, x1); ++u)
-          if (!grid.list(grid.index({u, v, w})).empty()) return false;
-    return true;
-  };
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    for (int z = 0; z < nz; ++z) {
-      for (int y = 0; y < ny; ++y) {
-        for (int x = 0; x < nx; ++x) {
-          const int clearance = grid.clearances(octant)[grid.index({x, y, z})];
-          ASSERT_TRUE(clearance == 0 || cube_is_empty(x, y, z, octant, clearance));
-          ASSERT_TRUE(clearance == 255 || !cube_is_empty(x, y, z, octant, clearance + 1));
-        }
+  for (const GridTrace& trace : grid_traces()) {
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+      Sampler random(5, i, 0);
+      const Vec3 from = test::random_point(random) * 3.0f - Vec3(1), to = test::random_point(random);
+      const Ray ray{from, to - from};
+      std::vector<std::uint32_t> cells;
+      trace.walk(grid, ray, cells);
+      const std::set<std::uint32_t> visited(cells.begin(), cells.end());
+      EXPECT_EQ(visited.size(), cells.size()) << "a cell was visited twice";
+      visits += visited.size();
+      for (double t = 0; t < 3; t += 0.01) {
+        std::optional<std::uint32_t> cell;
+        listed_at(grid, level, Vec3d(ray.origin) + Vec3d(ray.direction) * t, cell);
+        ASSERT_TRUE(!cell || visited.contains(*cell)) << trace.name;
       }
     }
   }
+  EXPECT_GT(visits, 2000u);
 }
 
 }  // namespace
