@@ -1,0 +1,92 @@
+"""Estimates with confidence intervals from a few independent runs.
+
+Errors of renderings are positive and spread over powers of ten, so means and intervals are those of logarithms; with few runs
+the quantiles are Student's. Nothing here knows of files or scenes.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy
+
+# 97.5 % quantiles of Student's t for 1, 2, ... degrees of freedom; beyond, Cornish-Fisher's expansion of the normal's.
+_T = (12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281)
+_Z = 1.959964
+
+
+def t_quantile(freedom):
+    """The number that |t| exceeds in 5 % of all cases. Whole and broken degrees of freedom, at least 1."""
+    if freedom <= len(_T):
+        low = min(int(freedom), len(_T) - 1)
+        part = freedom - low
+        return _T[low - 1] * (1 - part) + _T[low] * part
+    return _Z + (_Z**3 + _Z) / (4 * freedom) + (5 * _Z**5 + 16 * _Z**3 + 3 * _Z) / (96 * freedom**2)
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A value with the ends of its 95 % confidence interval; the ends are None if one run alone was made."""
+
+    value: float
+    low: float | None
+    high: float | None
+
+    def as_json(self):
+        return {"value": self.value, "low": self.low, "high": self.high}
+
+
+def mean(values):
+    """Arithmetic mean of runs."""
+    values = numpy.asarray(values, float)
+    centre = float(values.mean())
+    if len(values) < 2:
+        return Estimate(centre, None, None)
+    half = t_quantile(len(values) - 1) * float(values.std(ddof=1)) / math.sqrt(len(values))
+    return Estimate(centre, centre - half, centre + half)
+
+
+def geometric_mean(values):
+    """Geometric mean of runs, all above 0."""
+    e = mean(numpy.log(values))
+    return Estimate(*(None if x is None else math.exp(x) for x in (e.value, e.low, e.high)))
+
+
+def ratio(values, baseline):
+    """Geometric mean of `values` over that of `baseline`, runs of which are independent of each other (Welch)."""
+    a, b = numpy.log(values), numpy.log(baseline)
+    centre = float(a.mean() - b.mean())
+    if len(a) < 2 or len(b) < 2:
+        return Estimate(math.exp(centre), None, None)
+    va, vb = a.var(ddof=1) / len(a), b.var(ddof=1) / len(b)
+    if va + vb == 0:
+        return Estimate(math.exp(centre), math.exp(centre), math.exp(centre))
+    freedom = (va + vb) ** 2 / (va**2 / (len(a) - 1) + vb**2 / (len(b) - 1))
+    half = t_quantile(freedom) * math.sqrt(va + vb)
+    return Estimate(math.exp(centre), math.exp(centre - half), math.exp(centre + half))
+
+
+def slope(curves):
+    """Slope of log(error) over log(work), fitted to each run by least squares, then averaged: the points of one run hold the
+    same samples and depend on each other, runs do not."""
+    slopes = [numpy.polyfit(numpy.log(work), numpy.log(error), 1)[0] for work, error in curves]
+    return mean(slopes)
+
+
+def error_at(work, error, at):
+    """A run's error at a given amount of work, on straight lines between its points in logarithms; None beyond them."""
+    if not work[0] <= at <= work[-1]:
+        return None
+    return math.exp(numpy.interp(math.log(at), numpy.log(work), numpy.log(error)))
+
+
+def work_to_reach(work, error, target):
+    """Work at which a run's error first is `target`, and whether it was reached: if not, its last point goes on with the error
+    as one over the work, as for independent samples."""
+    for i, e in enumerate(error):
+        if e > target:
+            continue
+        if i == 0:
+            return work[0], True
+        part = math.log(error[i - 1] / target) / math.log(error[i - 1] / e)
+        return work[i - 1] * (work[i] / work[i - 1]) ** part, True
+    return work[-1] * error[-1] / target, False

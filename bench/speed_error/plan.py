@@ -1,0 +1,66 @@
+"""What is measured: scenes, sizes, and configurations of the renderer."""
+
+import itertools
+from dataclasses import dataclass
+
+# For each option the values to compare; the first is the default of `lemma render` and part of the baseline.
+DIMENSIONS = {
+    "accel": ("embree", "grid"),
+    "integrator": ("mis", "direct", "brdf"),
+    "lights": ("tree", "projected", "solid-angle", "power", "radiance-area"),
+    "mis": ("balance", "power"),
+    "sampler": ("sobol", "independent"),
+}
+BASELINE = tuple((name, values[0]) for name, values in DIMENSIONS.items())
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """Values of all dimensions."""
+
+    options: tuple
+
+    @property
+    def name(self):
+        """What differs from the baseline."""
+        others = [f"{name} {value}" for name, value in self.options if (name, value) not in BASELINE]
+        return ", ".join(others) or "default"
+
+    def arguments(self):
+        return [word for name, value in self.options for word in (f"--{name}", value)]
+
+
+def has_effect(options):
+    """Whether no option is one that others make meaningless: light sampling without light samples, MIS without both."""
+    chosen = dict(options)
+    if chosen["integrator"] == "brdf" and chosen["lights"] != DIMENSIONS["lights"][0]:
+        return False
+    return chosen["integrator"] == "mis" or chosen["mis"] == DIMENSIONS["mis"][0]
+
+
+def configurations(cross):
+    """The baseline first. Without `cross`, what differs from it in one dimension; with it, all combinations."""
+    everything = itertools.product(*([(name, value) for value in values] for name, values in DIMENSIONS.items()))
+    chosen = (options for options in everything
+              if has_effect(options) and (cross or sum(o not in BASELINE for o in options) <= 1))
+    return [Configuration(options) for options in chosen]
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much work a run of the benchmark is."""
+
+    size: str  # of the images
+    seconds: float  # of each rendering
+    seeds: int
+    reference_spp: int
+    parity_rays: int
+    traversal_rounds: int
+
+
+QUICK = Effort("128x72", 0.5, 5, 2048, 20000, 1)
+FULL = Effort("320x180", 60.0, 8, 65536, 1000000, 7)
+SCENES = ("veach-mis", "cornell-box", "cornell-coplanar")  # folders of scenes/
+REFERENCE_SEED = 1000003
+# Not the baseline's light sampling, so that a bias of it would show; with variances of independent scramblings.
+REFERENCE = ["--lights", "solid-angle", "--replicates", "16", "--seed", str(REFERENCE_SEED)]

@@ -1,0 +1,96 @@
+"""The plots of the report, drawn by matplotlib; each as SVG for the page and as SVG and PNG files."""
+
+import io
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  (the backend must be chosen before)
+
+matplotlib.rcParams.update({
+    "svg.fonttype": "none",  # text stays text
+    "svg.hashsalt": "lemma",  # the same figures make the same file
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#dddddd",
+    "figure.constrained_layout.use": True,
+})
+COLORS = pyplot.get_cmap("tab20").colors
+DASHES = ("-", "--", "-.", ":")
+
+
+def style(index):
+    return {"color": COLORS[(2 * index) % 20 + (2 * index) // 20 % 2], "linestyle": DASHES[index // 10 % 4]}
+
+
+def save(figure, folder, name):
+    """Writes both files and returns the SVG element for the page."""
+    svg = io.StringIO()
+    figure.savefig(svg, format="svg", metadata={"Date": None})
+    figure.savefig(folder / f"{name}.png", dpi=150)
+    pyplot.close(figure)
+    (folder / f"{name}.svg").write_text(svg.getvalue())
+    return svg.getvalue()[svg.getvalue().index("<svg"):]
+
+
+def _reference_slope(axes, work):
+    """A line of slope -1, that of independent samples' squared error, through the upper left of the plot."""
+    low, high = axes.get_ylim()
+    xs = (min(work), max(work))
+    ys = (high * 0.7, high * 0.7 * xs[0] / xs[1])
+    axes.plot(xs, ys, color="#888888", linewidth=0.8, linestyle=(0, (1, 2)), label="slope of independent samples")
+    axes.set_ylim(low, high)
+
+
+def error_plot(configurations, key, unit, identity):
+    """relMSE over seconds or samples, with bands of 95 % confidence over seeds. The curves' ids begin with `identity`."""
+    figure, axes = pyplot.subplots(figsize=(7.2, 4.6))
+    work, errors = [], []
+    for index, (name, figures) in enumerate(configurations.items()):
+        points = figures["curve"]
+        if not points:
+            continue
+        xs = [p[key] for p in points]
+        work += xs
+        errors += [p["relmse"]["value"] for p in points]
+        axes.plot(xs, [p["relmse"]["value"] for p in points], marker="o", markersize=2.5, linewidth=1.3, label=name,
+                  gid=f"{identity}-curve-{index}", **style(index))
+        if points[0]["relmse"]["low"] is not None:
+            axes.fill_between(xs, [p["relmse"]["low"] for p in points], [p["relmse"]["high"] for p in points],
+                              color=style(index)["color"], alpha=0.15, linewidth=0)
+    axes.set(xscale="log", yscale="log", xlabel=unit, ylabel="relMSE")
+    if work:
+        axes.set_ylim(min(errors) / 2, max(errors) * 2)  # by the means: bands of few seeds reach far
+        _reference_slope(axes, work)
+    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
+    return figure
+
+
+def efficiency_plot(configurations):
+    """Efficiency as a ratio to the first configuration's, with intervals."""
+    names = list(configurations)
+    ratios = [configurations[name]["efficiency_ratio"] for name in names]
+    figure, axes = pyplot.subplots(figsize=(7.2, 0.6 + 0.28 * len(names)))
+    values = [r["value"] for r in ratios]
+    errors = [[r["value"] - (r["low"] or r["value"]) for r in ratios], [(r["high"] or r["value"]) - r["value"] for r in ratios]]
+    axes.barh(range(len(names)), values, xerr=errors, color=[style(i)["color"] for i in range(len(names))],
+              error_kw={"elinewidth": 1, "capsize": 2})
+    axes.set_yticks(range(len(names)), names)
+    axes.invert_yaxis()
+    axes.axvline(1, color="#444444", linewidth=0.8)
+    axes.set(xscale="log", xlabel="efficiency 1 / (relMSE x seconds), ratio to the default; bars: 95 %")
+    return figure
+
+
+def traversal_plot(cases):
+    """Rays a second of grid over those of Embree."""
+    rows = [(f"{case['case']}: {kind}", figures["ratio"]) for case in cases for kind, figures in case["trace"].items()]
+    figure, axes = pyplot.subplots(figsize=(7.2, 0.6 + 0.22 * len(rows)))
+    axes.barh(range(len(rows)), [ratio for _, ratio in rows], color=COLORS[0])
+    axes.set_yticks(range(len(rows)), [name for name, _ in rows], fontsize=7)
+    axes.invert_yaxis()
+    axes.axvline(1, color="#444444", linewidth=0.8)
+    axes.set(xscale="log", xlabel="rays a second of grid over those of Embree, medians of runs in turns")
+    return figure

@@ -1,0 +1,158 @@
+"""The report: one HTML file that needs nothing else, plots as files, and the figures as CSV."""
+
+import csv
+import html
+import json
+from pathlib import Path
+
+import plots
+from summary import TARGET
+
+HERE = Path(__file__).resolve().parent
+
+
+def escape(text):
+    return html.escape(str(text))
+
+
+def interval(estimate, digits=3):
+    if estimate is None:
+        return "-"
+    text = f"{estimate['value']:.{digits}g}"
+    if estimate["low"] is not None:
+        text += f" ({estimate['low']:.{digits}g} to {estimate['high']:.{digits}g})"
+    return text
+
+
+def table(head, rows):
+    """Cells are texts, or (text, class)."""
+    def cell(value):
+        text, css = value if isinstance(value, tuple) else (value, None)
+        return f"<td{f' class={css}' if css else ''}>{escape(text)}</td>"
+
+    return ('<div class="scroll"><table><thead><tr>' + "".join(f"<th>{escape(h)}</th>" for h in head) + "</tr></thead><tbody>"
+            + "".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows) + "</tbody></table></div>")
+
+
+def figure(svg, caption):
+    return f"<figure>{svg}<figcaption>{caption}</figcaption></figure>"
+
+
+def file_name(text):
+    return "".join(c if c.isalnum() else "-" for c in Path(text).name)
+
+
+def figures_table(configurations, seconds):
+    times = list(next(iter(configurations.values()))["at"])
+    head = ["configuration", "samples/s", "slope of RMSE", *(f"relMSE at {t} s" for t in times), f"s to relMSE {TARGET:g}",
+            "efficiency / default", f"FLIP at {seconds:g} s", "mean against the reference"]
+    rows = []
+    for name, f in configurations.items():
+        views = f["views"]
+        verdict = "-"
+        if views:
+            verdict = ("different", "bad") if views["statistical"]["different"] else ("agrees", "good")
+        target = interval(f["to_target"]) + ("" if f["to_target"]["reached"] else " *")
+        rows.append([name, f"{f['samples_per_second']:.3g}", interval(f["slope"]),
+                     *(interval(f["at"][t]) for t in times), target, interval(f["efficiency_ratio"]),
+                     f"{views['flip']:.3g}" if views else "-", verdict])
+    return table(head, rows)
+
+
+def viewer(scene, configurations, reference):
+    views = {"reference": {"picture": reference["picture"]}}
+    views.update({name: f["views"] for name, f in configurations.items() if f["views"]})
+    names = list(views)
+    options = ["".join(f"<option{' selected' if n == chosen else ''}>{escape(n)}</option>" for n in names)
+               for chosen in (names[min(1, len(names) - 1)], names[0])]
+    data = json.dumps({n: {k: v[k] for k in ("picture", "difference") if k in v} for n, v in views.items()})
+    return f"""<div class="viewer" id="viewer-{escape(file_name(scene))}">
+<div class="controls"><label>left <select>{options[0]}</select></label><label>right <select>{options[1]}</select></label>
+<label>slider <input type="range" min="0" max="100" value="50"></label>
+<label><input type="checkbox"> signed error</label></div>
+<div class="stage" tabindex="0" role="img" aria-label="two images of {escape(scene)}"><img alt=""><img alt=""></div>
+<p class="caption"></p><p class="note">Click, space or enter flips; arrows choose images; e shows the signed error.</p>
+<script type="application/json">{data.replace('</', '<' + chr(92) + '/')}</script></div>"""
+
+
+def scene_section(scene, results, folder):
+    configurations, reference = results["summary"][scene], results["references"][scene]
+    stats, name = reference["stats"], file_name(scene)
+    noise = stats["estimated_error"]["relmse"]
+    seconds = results["effort"]["seconds"]
+    parts = [f'<h2 id="{escape(name)}">{escape(scene)}</h2>',
+             f"<p>{escape(stats['model'])}; {stats['width']} x {stats['height']} pixels. Reference: {stats['spp']} samples a pixel, "
+             f"{escape(stats['integrator'])} with lights {escape(stats['lights'])}, seed {stats['seed']}; its own relMSE is "
+             f"{interval(noise)}, which is subtracted from all errors.</p>"]
+    for key, unit in (("seconds", "seconds of rendering"), ("spp", "samples a pixel")):
+        svg = plots.save(plots.error_plot(configurations, key, unit, f"{name}-{key}"), folder, f"{name}-{key}")
+        parts.append(figure(svg, f"Error against {unit}. Bands: 95 % over {results['effort']['seeds']} seeds."))
+    svg = plots.save(plots.efficiency_plot(configurations), folder, f"{name}-efficiency")
+    parts += [figure(svg, f"Efficiency after {seconds:g} s."), figures_table(configurations, seconds),
+              '<p class="note">In brackets: 95 % confidence over seeds. Slope: of the root of relMSE over samples; independent '
+              "samples have -0.5. * not reached by all runs: goes on with the error as one over the time. The last column "
+              "is lemma compare --statistical on the first seed.</p>",
+              f"<h3>Images after {seconds:g} s</h3>", viewer(scene, configurations, reference)]
+    return "\n".join(parts)
+
+
+def accelerator_section(results, folder):
+    parts = ['<h2 id="accelerators">Accelerators</h2>']
+    if results["traversal"]:
+        cases = results["traversal"]["cases"]
+        parts.append(figure(plots.save(plots.traversal_plot(cases), folder, "traversal"), "./run bench-traversal --ratios"))
+        rows = [[c["case"], kind, f"{t['grid_rays_per_s']:.3g}", f"{t['embree_rays_per_s']:.3g}", f"{t['ratio']:.2f}"]
+                for c in cases for kind, t in c["trace"].items()]
+        parts.append(table(["case", "rays", "grid, rays/s", "Embree, rays/s", "grid / Embree"], rows))
+    rows = []
+    for report in results["parity"]:
+        for accel in report["accelerators"]:
+            t = accel["total"]
+            faults = t["wrong"] + t["missed"] + t["wrong_occlusion"]
+            rows.append([Path(report["scene"]).name, accel["accel"], t["rays"], t["decided"], t["wrong"], t["missed"],
+                         t["wrong_occlusion"], ("exact", "good") if faults == 0 else (f"{faults} faults", "bad")])
+    parts += ["<h3>Parity: answers against exact arithmetic</h3>",
+              table(["scene", "accelerator", "rays", "decided", "wrong", "missed", "occlusion", "verdict"], rows)]
+    if results["hard_cases"]:
+        rows = [[h["case"], h["backend"], h["expected"], h["tried"],
+                 (str(h["faults"]), "good" if h["faults"] == 0 else "bad"), h["allowed"]] for h in results["hard_cases"]]
+        parts += ["<h3>Hard cases</h3>", table(["case", "accelerator", "expected", "tried", "faults", "allowed"], rows)]
+    return "\n".join(parts)
+
+
+def write_csv(results, path):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(["scene", "configuration", "seed", "spp", "seconds", "cpu_seconds", "rmse", "relmse"])
+        for r in results["renderings"]:
+            for p in r["figures"]["error_curve"]:
+                writer.writerow([r["scene"], r["configuration"], r["seed"], p["spp"], p["seconds"], p["cpu_seconds"], p["rmse"],
+                                 p["relmse"]])
+
+
+def write_report(results, folder):
+    """Writes report.html, plots/ and errors.csv into the folder; returns the page's path."""
+    plot_folder = folder / "plots"
+    plot_folder.mkdir(parents=True, exist_ok=True)
+    machine, effort = results["machine"], results["effort"]
+    sections = [scene_section(scene, results, plot_folder) for scene in results["summary"]]
+    accelerators = accelerator_section(results, plot_folder)
+    links = "".join(f'<a href="#{escape(file_name(s))}">{escape(s)}</a>' for s in results["summary"])
+    page = f"""<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<link rel="icon" href="data:,"><title>Lemma: speed against error</title>
+<style>{(HERE / 'style.css').read_text()}</style></head><body>
+<h1>Lemma: speed against error</h1>
+<p>{escape(results['version'])}, commit {escape(results['commit'])}; {escape(machine['processor'])}, {machine['threads']} threads,
+{machine['memory_gb']} GB, {escape(machine['system'])}. Each configuration rendered {effort['size']} pixels for {effort['seconds']:g} s
+with {effort['seeds']} seeds, in turns. relMSE is the mean of (I - R)<sup>2</sup> / (R<sup>2</sup> + 0.01).</p>
+<nav>{links}<a href="#accelerators">Accelerators</a></nav>
+{''.join(sections)}
+{accelerators}
+<script>{(HERE / 'viewer.js').read_text()}</script>
+</body></html>
+"""
+    path = folder / "report.html"
+    path.write_text(page, encoding="utf-8")
+    write_csv(results, folder / "errors.csv")
+    return path

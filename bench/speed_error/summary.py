@@ -1,0 +1,86 @@
+"""From renderings to the figures of the report: for each scene and configuration its curve, slope, efficiency and times."""
+
+import math
+
+import estimates
+
+TARGET = 0.01  # relMSE
+TIMES = (1.0, 10.0, 60.0)  # seconds
+FIRST_FITTED = 4  # samples a pixel: with fewer, the error is that of images full of holes
+NEARLY = 1.02  # a run counts as having lasted a time if it fell short by 2 %: passes are whole
+
+
+def points(figures, key):
+    """(key, relMSE) of a run's points whose error is above the reference's noise."""
+    pairs = [(p[key], p["relmse"]) for p in figures["error_curve"] if p["relmse"] > 0]
+    return [p[0] for p in pairs], [p[1] for p in pairs]
+
+
+def curve(runs):
+    """Errors at the numbers of samples that all runs reached."""
+    by_spp = {}
+    for figures in runs:
+        for p in figures["error_curve"]:
+            if p["relmse"] > 0:
+                by_spp.setdefault(p["spp"], []).append(p)
+    complete = sorted(spp for spp, found in by_spp.items() if len(found) == len(runs))
+    return [{"spp": spp,
+             "seconds": estimates.geometric_mean([p["seconds"] for p in by_spp[spp]]).value,
+             "relmse": estimates.geometric_mean([p["relmse"] for p in by_spp[spp]]).as_json()} for spp in complete]
+
+
+def error_at_time(runs, seconds):
+    """Geometric mean over the runs; None if one did not last as long."""
+    errors = []
+    for figures in runs:
+        work, error = points(figures, "seconds")
+        at = min(seconds, work[-1]) if work[-1] * NEARLY >= seconds else seconds
+        errors.append(estimates.error_at(work, error, at))
+    return None if None in errors else estimates.geometric_mean(errors).as_json()
+
+
+def time_to_target(runs):
+    found = [estimates.work_to_reach(*points(figures, "seconds"), TARGET) for figures in runs]
+    return {**estimates.geometric_mean([seconds for seconds, _ in found]).as_json(),
+            "reached": all(reached for _, reached in found)}
+
+
+def efficiencies(runs):
+    """1 / (relMSE x seconds) at the end of each run."""
+    last = [figures["error_curve"][-1] for figures in runs]
+    return [1 / (max(p["relmse"], 1e-12) * p["seconds"]) for p in last]
+
+
+def fitted_slope(runs):
+    """Of the root of relMSE over samples: -0.5 for independent samples."""
+    curves = []
+    for figures in runs:
+        work, error = points(figures, "spp")
+        fitted = [(w, math.sqrt(e)) for w, e in zip(work, error) if w >= FIRST_FITTED]
+        if len(fitted) < 2:
+            return None
+        curves.append(tuple(zip(*fitted)))
+    return estimates.slope(curves).as_json()
+
+
+def summarize(renderings, effort):
+    """For each scene its configurations in the order they were run; the first is the baseline."""
+    runs = {}
+    for r in renderings:
+        runs.setdefault(r["scene"], {}).setdefault(r["configuration"], []).append(r["figures"])
+    scenes = {}
+    for scene, by_configuration in runs.items():
+        baseline = efficiencies(next(iter(by_configuration.values())))
+        scenes[scene] = {
+            name: {
+                "curve": curve(found),
+                "slope": fitted_slope(found),
+                "efficiency": estimates.geometric_mean(efficiencies(found)).as_json(),
+                "efficiency_ratio": estimates.ratio(efficiencies(found), baseline).as_json(),
+                "at": {f"{t:g}": error_at_time(found, t) for t in sorted({*TIMES, effort.seconds})},
+                "to_target": time_to_target(found),
+                "samples_per_second": estimates.geometric_mean(
+                    [f["camera_samples_per_second"] for f in found]).value,
+                "views": next((f["views"] for f in found if "views" in f), None),
+            } for name, found in by_configuration.items()}
+    return scenes

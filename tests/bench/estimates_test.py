@@ -1,0 +1,131 @@
+"""The benchmark's estimates, on synthetic runs whose truth is known."""
+
+import math
+import unittest
+
+try:
+    import numpy
+except ImportError as missing:
+    raise unittest.SkipTest(f"{missing}: apt install python3-numpy") from None
+
+import estimates
+import regression
+import summary
+
+TRIALS = 4000
+
+
+def coverage_bounds(rate):
+    """Between these lies the part of TRIALS intervals that hold the truth, but for a chance of 1e-6 (binomial, 4.9 sigma)."""
+    half = 4.9 * math.sqrt(rate * (1 - rate) / TRIALS)
+    return rate - half, rate + half
+
+
+class CoverageTest(unittest.TestCase):
+    """Intervals hold the truth at their stated rate: 95 %."""
+
+    def assert_covers(self, truth, estimate_of, low=None):
+        random = numpy.random.default_rng(1)
+        held = sum(e.low <= truth <= e.high for e in (estimate_of(random) for _ in range(TRIALS))) / TRIALS
+        lowest, highest = coverage_bounds(0.95)
+        self.assertGreater(held, lowest if low is None else low)
+        self.assertLess(held, highest)
+
+    def test_mean(self):
+        for runs in (2, 3, 8, 30):
+            self.assert_covers(7, lambda random, runs=runs: estimates.mean(random.normal(7, 2, runs)))
+
+    def test_geometric_mean(self):
+        self.assert_covers(0.01, lambda random: estimates.geometric_mean(0.01 * numpy.exp(random.normal(0, 0.3, 5))))
+
+    def test_ratio(self):
+        """Welch's interval covers somewhat more than stated if one side varies little; never less than 94 %."""
+        for spread in (0.3, 0.05):
+            random = numpy.random.default_rng(2)
+            held = 0
+            for _ in range(TRIALS):
+                values, baseline = 3 * numpy.exp(random.normal(0, 0.3, 5)), numpy.exp(random.normal(0, spread, 5))
+                e = estimates.ratio(values, baseline)
+                held += e.low <= 3 <= e.high
+            self.assertGreater(held / TRIALS, 0.93)
+            self.assertLess(held / TRIALS, 0.99)
+
+    def test_slope(self):
+        work = 2.0 ** numpy.arange(2, 9)
+
+        def estimate_of(random):
+            return estimates.slope([(work, work**-0.5 * numpy.exp(random.normal(0, 0.1, len(work)))) for _ in range(4)])
+
+        self.assert_covers(-0.5, estimate_of)
+
+    def test_slope_is_unbiased(self):
+        random = numpy.random.default_rng(3)
+        work = 2.0 ** numpy.arange(2, 9)
+        fitted = [estimates.slope([(work, work**-0.62 * numpy.exp(random.normal(0, 0.1, len(work))))]).value
+                  for _ in range(TRIALS)]
+        self.assertLess(abs(numpy.mean(fitted) + 0.62), 5 * numpy.std(fitted) / math.sqrt(TRIALS))
+
+
+class CurveTest(unittest.TestCase):
+    WORK = [1.0, 2.0, 4.0, 8.0]
+    ERROR = [1.0, 0.5, 0.25, 0.125]
+
+    def test_error_lies_on_lines_in_logarithms(self):
+        self.assertAlmostEqual(estimates.error_at(self.WORK, self.ERROR, 3), 1 / 3)
+        self.assertIsNone(estimates.error_at(self.WORK, self.ERROR, 9))
+        self.assertIsNone(estimates.error_at(self.WORK, self.ERROR, 0.5))
+
+    def test_work_to_reach_an_error(self):
+        for target, work, reached in ((2, 1, True), (0.3, 1 / 0.3, True), (0.125, 8, True), (0.01, 100, False)):
+            found, was_reached = estimates.work_to_reach(self.WORK, self.ERROR, target)
+            self.assertAlmostEqual(found, work)
+            self.assertEqual(was_reached, reached)
+
+    def test_one_run_has_no_interval(self):
+        self.assertEqual(estimates.mean([3]), estimates.Estimate(3, None, None))
+
+    def test_t_quantiles(self):
+        for freedom, quantile in ((1, 12.706), (3, 3.182), (10, 2.228), (12, 2.179), (30, 2.042), (1000, 1.962)):
+            self.assertAlmostEqual(estimates.t_quantile(freedom), quantile, 2)
+
+
+class SummaryTest(unittest.TestCase):
+    @staticmethod
+    def rendering(name, seed, relmse, seconds):
+        """A run of 8 samples a pixel whose error falls as one over the samples."""
+        points = [{"spp": n, "seconds": seconds * n / 8, "rmse": 1, "relmse": relmse * 8 / n} for n in (1, 2, 4, 8)]
+        return {"scene": "s", "configuration": name, "seed": seed,
+                "figures": {"error_curve": points, "camera_samples_per_second": 1000}}
+
+    def test_efficiency_slope_and_times(self):
+        effort = type("Effort", (), {"seconds": 2.0})
+        runs = [self.rendering(name, seed, relmse, 2.0) for seed in (1, 2)
+                for name, relmse in (("default", 0.02), ("twice", 0.01))]
+        figures = summary.summarize(runs, effort)["s"]
+        self.assertAlmostEqual(figures["default"]["efficiency"]["value"], 25)
+        self.assertAlmostEqual(figures["twice"]["efficiency_ratio"]["value"], 2)
+        self.assertAlmostEqual(figures["twice"]["slope"]["value"], -0.5)
+        self.assertAlmostEqual(figures["default"]["at"]["1"]["value"], 0.04)
+        self.assertIsNone(figures["default"]["at"]["10"])
+        self.assertAlmostEqual(figures["default"]["to_target"]["value"], 4)
+        self.assertFalse(figures["default"]["to_target"]["reached"])
+        self.assertTrue(figures["twice"]["to_target"]["reached"])
+        self.assertEqual([p["spp"] for p in figures["twice"]["curve"]], [1, 2, 4, 8])
+
+
+class RegressionTest(unittest.TestCase):
+    @staticmethod
+    def summary_of(value):
+        return {"s": {"default": {"efficiency": {"value": value, "low": 0.95 * value, "high": 1.05 * value}}}}
+
+    def test_only_what_is_clearly_worse_is_told(self):
+        for value, bad in ((100, 0), (85, 0), (60, 1), (150, 0)):
+            _, found = regression.worsened(self.summary_of(value), self.summary_of(100))
+            self.assertEqual(len(found), bad, value)
+
+    def test_new_configurations_have_no_baseline(self):
+        self.assertEqual(regression.worsened(self.summary_of(1), {})[0], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
