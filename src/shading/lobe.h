@@ -65,7 +65,7 @@ class PhongLobe {
   }
 
  private:
-  [[nodiscard]] float sin_of_r() const { return std::hypot(r_.x, r_.y); }
+  [[nodiscard]] float sin_of_r() const { return std::sqrt(r_.x * r_.x + r_.y * r_.y); }
 
   /// @param one_minus_cos  of alpha, at most 1
   [[nodiscard]] float largest_azimuth(float one_minus_cos) const {

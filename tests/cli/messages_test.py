@@ -36,6 +36,28 @@ def text_on_terminal(write):
     return text.result()
 
 
+class VarianceTest(LemmaTest):
+    """Fixed roulette in a scene that reflects too much for it."""
+
+    def render_with_albedo(self, albedo, *arguments):
+        scene = self.copy_scene()
+        mtl = scene / "cornell-box.mtl"
+        mtl.write_text(mtl.read_text().replace("Kd 0.725 0.71 0.68", f"Kd {albedo} 0.1 0.1"))
+        return self.render("--progress", "off", *arguments, scene="scene").stderr
+
+    def test_infinite_variance_is_warned_of(self):
+        text = self.render_with_albedo(0.9, "--rr", "fixed")
+        self.assertIn("scene/cornell-box.xml: warning: --rr fixed: surfaces reflect up to 0.9 of the light, whose square "
+                      "is not below 0.6: the variance is infinite where paths cannot leave; --rr throughput has no "
+                      "such limit\n", text)
+
+    def test_there_is_no_warning_without_cause(self):
+        self.assertNotIn("warning", self.render_with_albedo(0.77, "--rr", "fixed"))
+
+    def test_throughput_has_no_such_limit(self):
+        self.assertNotIn("warning", self.render_with_albedo(0.9))
+
+
 class SummaryTest(LemmaTest):
     def test_goes_to_stdout(self):
         text = self.render("--accel", "brute", "--threads", 1, size="20x10", spp=3).stdout

@@ -62,6 +62,13 @@ INSTANTIATE_TEST_SUITE_P(Surface, Hard,
 INSTANTIATE_TEST_SUITE_P(Sampling, Hard,
                          testing::Combine(testing::ValuesIn(sampling_cases().begin(), sampling_cases().end()),
                                           testing::Values(std::string_view("-"))));
+INSTANTIATE_TEST_SUITE_P(Furnace, Hard,
+                         testing::Combine(testing::ValuesIn(furnace_cases().begin(), furnace_cases().end()),
+                                          testing::ValuesIn(kBackends)));
+INSTANTIATE_TEST_SUITE_P(Estimator, Hard,
+                         testing::Combine(testing::ValuesIn(estimator_cases().begin(),
+                                                            estimator_cases().end()),
+                                          testing::Values(std::string_view("-"))));
 
 }  // namespace
 }  // namespace lemma::test

@@ -67,6 +67,8 @@ std::vector<Run> all_estimators(std::uint32_t spp) {
       {{"embree", "direct", "power", fixed}, 32 * spp},
       {{"embree", "direct", "solid-angle"}, 3 * spp},
       {{"embree", "brdf", "power"}, 16 * spp},
+      {{"embree", "mis-report", "tree"}, spp},
+      {{"embree", "mis-report", "power", squared}, 4 * spp},
   };
 }
 
@@ -142,6 +144,8 @@ TEST(Furnace, ClosedBoxHasTheGeometricSeries) {
   cases.push_back({0.5f, Roulette::throughput, "brdf", "power"});
   cases.push_back({0.5f, Roulette::throughput, "direct", "solid-angle"});
   cases.push_back({0.9f, Roulette::throughput, "brdf", "power"});
+  for (const auto& roulette : roulettes()) cases.push_back({0.5f, roulette.value, "mis-report", "tree"});
+  cases.push_back({0.9f, Roulette::throughput, "mis-report", "tree"});
   const double limit = test::t_limit(kFalseAlarm, static_cast<int>(cases.size()), kSeeds - 1);
   for (const Case& c : cases) {
     IntegratorOptions options;
