@@ -125,7 +125,7 @@ Outcome furnace(std::string_view backend) {
 std::span<const HardCase> estimator_cases() {
   static constexpr HardCase cases[] = {
       {"20 exponents 0 to 1e6", "the formula's digits", exponent_ladder},
-      {"24 smallest and largest random numbers", "finite directions", extreme_numbers},
+      {"24 extremes of random numbers, BRDFs", "finite directions", extreme_numbers},
       {"25 a pixel of 1e7 samples", "the sum to 1.2e-9", many_samples}};
   return cases;
 }
