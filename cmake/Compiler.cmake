@@ -1,6 +1,7 @@
 # Flags shared by all targets: warnings, floating-point rules, sanitizers.
 add_library(lemma_compiler INTERFACE)
-target_compile_options(lemma_compiler INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wpedantic)
+# Clang's -Wshadow also takes offence at parameters of friends that have the name of a member.
+target_compile_options(lemma_compiler INTERFACE -Wall -Wextra -Wconversion $<$<CXX_COMPILER_ID:GNU>:-Wshadow> -Wpedantic)
 if(LEMMA_WARNINGS_AS_ERRORS)
   target_compile_options(lemma_compiler INTERFACE -Werror)
 endif()

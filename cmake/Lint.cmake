@@ -2,7 +2,7 @@
 find_program(CLANG_FORMAT clang-format)
 find_program(RUN_CLANG_TIDY NAMES run-clang-tidy run-clang-tidy-14 run-clang-tidy-19)
 file(GLOB_RECURSE lint_files CONFIGURE_DEPENDS src/*.h src/*.cpp accel/*.h accel/*.cpp integrators/*.h
-     integrators/*.cpp tests/*.h tests/*.cpp bench/*.h bench/*.cpp)
+     integrators/*.cpp tests/*.h tests/*.cpp bench/*.h bench/*.cpp fuzz/*.h fuzz/*.cpp)
 
 if(CLANG_FORMAT)
   add_custom_target(format COMMAND ${CLANG_FORMAT} -i ${lint_files} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/app/argument_error.h"
+#include "src/app/check_command.h"
 #include "src/app/compare_command.h"
 #include "src/app/parity_command.h"
 #include "src/app/render_command.h"
@@ -120,6 +121,8 @@ int run_command_line(int argc, const char* const* argv) {
   const CLI::App* trace = add_trace_command(app, trace_options);
   ParityOptions parity_options;
   const CLI::App* parity = add_parity_command(app, parity_options);
+  CheckOptions check_options;
+  const CLI::App* check = add_check_command(app, check_options);
   CompareOptions compare_options;
   const CLI::App* compare = add_compare_command(app, compare_options);
   try {
@@ -131,6 +134,7 @@ int run_command_line(int argc, const char* const* argv) {
   }
   if (trace->parsed()) return run_trace(trace_options);
   if (parity->parsed()) return run_parity(parity_options);
+  if (check->parsed()) return run_check(check_options);
   if (compare->parsed()) return run_compare(compare_options);
   return render->parsed() ? run_render(render_options) : kBadInput;
 }

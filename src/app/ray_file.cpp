@@ -9,6 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "src/core/machine.h"
+
 namespace lemma {
 namespace {
 
@@ -34,6 +36,12 @@ std::string read_bytes(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, error)) throw bad_file(path, "this is a folder", "name a file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw bad_file(path, "the file cannot be opened", "check its permissions");
+  if (const auto size = std::filesystem::file_size(path, error); !error && size > machine_memory() / 4) {
+    throw bad_file(
+        path,
+        fmt::format("the file has {:.1f} GB, too much for this machine", static_cast<double>(size) / 1e9),
+        "divide it");
+  }
   std::ostringstream content;
   content << stream.rdbuf();
   if (stream.bad()) throw bad_file(path, "the file cannot be read to its end", "check the disk");
@@ -49,7 +57,10 @@ std::string bytes_of(const Record& record) {
 }  // namespace
 
 std::vector<Ray> read_rays(const std::filesystem::path& path) {
-  const std::string bytes = read_bytes(path);
+  return parse_rays(path, read_bytes(path));
+}
+
+std::vector<Ray> parse_rays(const std::filesystem::path& path, std::string_view bytes) {
   if (bytes.empty()) throw bad_file(path, "the file is empty", kRayFormat);
   if (bytes.size() % kRayBytes != 0) {
     throw bad_file(path, fmt::format("{} bytes are no whole number of rays of {}", bytes.size(), kRayBytes),

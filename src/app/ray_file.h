@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/core/hit.h"
@@ -15,6 +16,10 @@ namespace lemma {
 /// x y z, t_max.
 /// @throw std::runtime_error if the file is missing, empty, or no whole number of rays
 [[nodiscard]] std::vector<Ray> read_rays(const std::filesystem::path& path);
+
+/// The same for bytes that are in memory already.
+/// @param path  what messages call it
+[[nodiscard]] std::vector<Ray> parse_rays(const std::filesystem::path& path, std::string_view bytes);
 
 /// The bytes of one ray in such a file.
 [[nodiscard]] std::string ray_bytes(const Ray& ray);

@@ -125,6 +125,7 @@ void build_geometry(const ObjFile& obj, const LightList& lights, MaterialTable& 
     report.dropped_zero_area += soundness == Soundness::zero_area ? 1 : 0;
     if (soundness != Soundness::sound) continue;
     const VertexNormals normals = normals_of(obj, t, shape);
+    report.opposed_normals += normals.oppose_winding ? 1 : 0;
     Facet facet{.material = materials.of_obj[t.material]};
     if (const std::uint32_t light = lights.of_material[facet.material]; light != kNoLight) {
       facet.emitter = static_cast<std::uint32_t>(scene.emitters.size());

@@ -4,12 +4,10 @@
 
 #include "src/scene/geometry.h"
 #include "src/scene/glass.h"
-#include "src/scene/light_list.h"
-#include "src/scene/material_table.h"
 #include "src/scene/material_textures.h"
-#include "src/scene/read_obj.h"
 #include "src/scene/read_xml.h"
 #include "src/scene/scene_files.h"
+#include "src/scene/scene_parts.h"
 #include "src/scene/spheres.h"
 
 namespace lemma {
@@ -42,32 +40,27 @@ void find_glass(const std::vector<MtlMaterial>& materials, const std::vector<boo
 
 }  // namespace
 
-LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
-  LoadedScene loaded;
+void load_parts(const std::filesystem::path& path, const LoadOptions& options, SceneParts& parts,
+                LoadedScene& loaded) {
   auto& [scene, report] = loaded;
+  auto& [obj, table, lights] = parts;
   const SceneFiles files = find_scene_files(path);
   report.xml = files.xml;
   report.obj = files.obj;
   const XmlScene xml = read_xml(files.xml, report.warnings);
   report.dialect = xml.dialect;
-  ObjFile obj = read_obj(files.obj, report.warnings);
+  obj = read_obj(files.obj, report.warnings);
   add_spheres(xml.spheres, obj);
   report.mtl = find_mtl_files(files.obj, obj.libraries, report.warnings);
-  MaterialTable table = read_materials(report.mtl, obj.materials, report.warnings);
-  const LightList lights = find_lights(xml, table.materials, options.emission, report.warnings);
+  table = read_materials(report.mtl, obj.materials, report.warnings);
+  lights = find_lights(xml, table.materials, options.emission, report.warnings);
 
   scene.view = xml.view;
   build_geometry(obj, lights, table, scene, report);
-  if (scene.triangles.empty()) {
-    throw SceneError({files.obj},
-                     fmt::format("no triangle can be rendered, of {} read", report.triangles_read),
-                     "the faces need three corners that are not in line");
-  }
   number_lights(lights, table.materials, scene, report.warnings);
   const std::vector<bool> reflects = find_reflecting(scene, table.materials.size());
-  if (scene.emitters.empty()) throw no_emitters({files.xml}, table.materials, reflects);
   scene.materials = make_materials(table.materials, reflects, options.brdf, report.warnings);
-  scene.overlays = find_overlays(scene.triangles, scene.emitters);
+  if (!scene.emitters.empty()) scene.overlays = find_overlays(scene.triangles, scene.emitters);
   scene.needs.model.overlays = !scene.overlays.empty();
   scene.needs.model.specular = any_specular(table.materials, reflects);
   find_glass(table.materials, reflects, scene);
@@ -78,6 +71,25 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
              "{} triangles with a texture have no texture coordinates; Kd stands in its place, or grey 0.5",
              report.without_texcoords));
   }
+}
+
+void require_renderable(const LoadedScene& loaded, const SceneParts& parts) {
+  const auto& [scene, report] = loaded;
+  if (scene.triangles.empty()) {
+    throw SceneError({report.obj},
+                     fmt::format("no triangle can be rendered, of {} read", report.triangles_read),
+                     "the faces need three corners that are not in line");
+  }
+  if (!scene.emitters.empty()) return;
+  const std::vector<MtlMaterial>& materials = parts.table.materials;
+  throw no_emitters({report.xml}, materials, find_reflecting(scene, materials.size()));
+}
+
+LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
+  LoadedScene loaded;
+  SceneParts parts;
+  load_parts(path, options, parts, loaded);
+  require_renderable(loaded, parts);
   return loaded;
 }
 

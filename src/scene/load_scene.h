@@ -33,6 +33,7 @@ struct LoadReport {
   std::size_t triangles_read = 0;      // polygons as fans
   std::size_t dropped_zero_area = 0;   // triangles whose area is exactly 0
   std::size_t dropped_non_finite = 0;  // triangles with a vertex that is NaN, infinite or beyond 1e18
+  std::size_t opposed_normals = 0;     // triangles whose vertex normals oppose their winding
   std::size_t without_texcoords = 0;   // triangles of textured materials that have no texture coordinates
   std::vector<std::string> warnings;   // each "file[:line[:column]]: warning: what"
 };

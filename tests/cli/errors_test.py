@@ -6,7 +6,7 @@ import unittest
 from lemma import BAD_INPUT, CORNELL_BOX, LemmaTest, choices, options_with_choices, render_options
 
 SEE_RENDER_HELP = "lemma render --help tells what it takes"
-SEE_HELP = "expected one of: render, trace, parity, compare; lemma --help tells more"
+SEE_HELP = "expected one of: render, trace, parity, check, compare; lemma --help tells more"
 
 
 class ErrorTest(LemmaTest):
