@@ -260,7 +260,7 @@ TEST(Furnace, PlateReflectsItsDirectionalAlbedo) {
       const Scene scene =
           plate_in_furnace(make_material({kd, kd, kd}, {ks, ks, ks}, n, brdf), towards_camera);
       for (const auto& integrator : integrators()) {
-        const std::uint32_t spp = integrator.name == "direct" ? 25 * 64 : 64;  // for about equal noise
+        const std::uint32_t spp = integrator.name == "direct" ? 50 * 64 : 64;  // for about equal noise
         const Estimate e =
             test::mean_over_seeds(scene, {"grid", integrator.name, "solid-angle"}, spp, 0, kSeeds);
         EXPECT_NEAR(e.mean, expected, limit * e.standard_error + 5e-5)
