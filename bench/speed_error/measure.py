@@ -34,7 +34,8 @@ def data_url(png):
 
 
 def rendering_key(scene, configuration, seed, effort):
-    return ["render", str(scene), configuration.options, seed, effort.size, effort.seconds, effort.reference_spp]
+    return ["render", str(scene), configuration.options, seed, effort.size, effort.seconds,
+            effort.reference_spp, REFERENCE]
 
 
 def rendering(jobs, scene, configuration, seed, effort, image):
@@ -82,10 +83,10 @@ def traversal(jobs, effort, program):
 
     def work(stem):
         out = stem.with_suffix(".traversal")
-        run([program, "--ratios", f"--rounds={effort.traversal_rounds}", f"--ratios-out={out}"])
+        run([program, "--ratios", *effort.traversal_cases, f"--rounds={effort.traversal_rounds}", f"--ratios-out={out}"])
         return json.loads(out.read_text())
 
-    return jobs.result(["traversal", effort.traversal_rounds], work)
+    return jobs.result(["traversal", effort.traversal_cases, effort.traversal_rounds], work)
 
 
 def hard_cases(jobs, program):
