@@ -32,7 +32,7 @@ std::string describe(const std::optional<AnyHit>& hit) {
 
 /// "triangle 7 at t 1.5"; of a wrong occlusion also what the closest hit is, as the two may contradict.
 std::string answer(const Fault& fault) {
-  const std::string hit = describe(fault.answer);
+  std::string hit = describe(fault.answer);
   if (fault.what != "occlusion") return hit;
   return fmt::format("{} (closest hit: {})", fault.occluded ? "blocked" : "not blocked", hit);
 }

@@ -34,9 +34,10 @@ Plane convolve_columns(const Plane& plane, const Kernel& kernel) {
   parallel_for(static_cast<std::size_t>(plane.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     float* target = &sum.values[at(sum, 0, y)];
-    for (int k = -radius; k <= radius; ++k) {
-      const float* source = &plane.values[at(plane, 0, std::clamp(y + k, 0, plane.height - 1))];
-      const float weight = kernel[static_cast<std::size_t>(k + radius)];
+    for (std::size_t k = 0; k < kernel.size(); ++k) {
+      const int source_y = std::clamp(y + static_cast<int>(k) - radius, 0, plane.height - 1);
+      const float* source = &plane.values[at(plane, 0, source_y)];
+      const float weight = kernel[k];
       for (int x = 0; x < plane.width; ++x) target[x] += weight * source[x];
     }
   });
