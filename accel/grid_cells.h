@@ -67,7 +67,7 @@ struct GridCells {
   /// The vertices of a cell's list as nine arrays of its length, v0.x v0.y v0.z v1.x ... v2.z. Reading up to
   /// kOverread floats past the last array is safe, and as many indices past the last list.
   [[nodiscard]] const float* packed(const Record& list) const { return vertices.data() + 9ull * list.begin; }
-  static constexpr std::size_t kOverread = 8;
+  static constexpr std::size_t kOverread = 16;
 
   /// Triangle i of a cell's list.
   [[nodiscard]] Triangle triangle(const Record& list, std::size_t i) const {

@@ -18,23 +18,29 @@ namespace HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-// Eight lanes: cells hold few triangles, and 16 measured slower.
-using Lanes = hn::CappedTag<float, GridCells::kOverread>;
-using Floats = hn::Vec<Lanes>;
-constexpr Lanes kLanes;
+
+/// Bit i of a mask's lanes, of which there are at most 16.
+template <class D, class M>
+HWY_INLINE std::uint64_t bits_of(D d, M mask) {
+  std::uint8_t bytes[8];
+  hn::StoreMaskBits(d, mask, bytes);
+  return hn::Lanes(d) > 8 ? bytes[0] | std::uint64_t{bytes[1]} << 8 : bytes[0];
+}
 
 /// b.x c.y - b.y c.x, of the right sign or, in doubt, 0. Where products are fused the second line adds what
 /// the first lost to the rounding of b.y c.x: the sum is 0 only if the value is, and else has its sign.
 /// Source: Jeannerod, Louvet, Muller, Further Analysis of Kahan's Algorithm for the Accurate Computation of 2
 /// x 2 Determinants, Mathematics of Computation 82, 2013. Elsewhere the three roundings err by less than
 /// 2^-23 of the products, and what is not twice as large counts as 0.
+template <class Floats>
 HWY_INLINE Floats edge(Floats bx, Floats by, Floats cx, Floats cy) {
   const Floats lost = hn::Mul(by, cx);
 #if HWY_NATIVE_FMA
   return hn::Add(hn::MulSub(bx, cy, lost), hn::NegMulAdd(by, cx, lost));
 #else
   const Floats kept = hn::Mul(bx, cy), value = hn::Sub(kept, lost);
-  const Floats doubt = hn::Mul(hn::Add(hn::Abs(kept), hn::Abs(lost)), hn::Set(kLanes, 0x1p-22f));
+  const Floats doubt =
+      hn::Mul(hn::Add(hn::Abs(kept), hn::Abs(lost)), hn::Set(hn::DFromV<Floats>(), 0x1p-22f));
   return hn::IfThenZeroElse(hn::Le(hn::Abs(value), doubt), value);
 #endif
 }
@@ -45,11 +51,15 @@ constexpr float kTiny = 0x1p-126f;
 /// Whether the values of edge() are precise too, to 2 roundings, and not their signs alone.
 constexpr bool kPreciseEdges = HWY_NATIVE_FMA != 0;
 
-/// Tests the triangles of cells, all lanes at a time. What lanes cannot rule out, the test of one triangle
-/// decides: hits are those of brute force to the bit.
-class CellTest {
+/// Tests up to kWidth triangles of a list at a time: what it cannot rule out, the test of one triangle
+/// decides.
+template <std::size_t kWidth>
+class BlockTest {
  public:
-  HWY_INLINE explicit CellTest(const ShearedRay& ray)
+  using Lanes = hn::CappedTag<float, kWidth>;
+  static constexpr Lanes kLanes{};
+
+  HWY_INLINE explicit BlockTest(const ShearedRay& ray)
       : ray_(ray),
         sx_(hn::Set(kLanes, ray.sx)),
         sy_(hn::Set(kLanes, ray.sy)),
@@ -57,24 +67,21 @@ class CellTest {
         oy_(hn::Set(kLanes, ray.origin[ray.ky])),
         oz_(hn::Set(kLanes, ray.origin[ray.kz])) {}
 
-  /// intersect() with each triangle of the cell's list.
-  template <bool kAny>
-  HWY_INLINE bool operator()(const GridCells& grid, const GridCells::Record& list, Hit& best) const {
-    const std::size_t begin = list.begin, size = list.count;
-    const float* packed = grid.packed(list);
-    bool hit = false;
-    for (std::size_t i = 0; i < size; i += hn::Lanes(kLanes)) {
-      for (std::uint64_t rest = candidates(packed + i, size, size - i, best.t); rest != 0; rest &= rest - 1) {
-        const std::size_t j = i + static_cast<std::size_t>(std::countr_zero(rest));
-        if (grid.references[begin + j] == best.triangle && best.t < ray_.t_max) continue;
-        hit |= intersect(ray_, grid.triangle(list, j), grid.references[begin + j], best);
-        if (kAny && hit) return true;
-      }
-    }
-    return hit;
+  /// Bit i is set if the ray may hit triangle i of `count` at a t up to `t_max`.
+  /// @param size  distance between the arrays of packed vertices
+  HWY_INLINE std::uint64_t candidates(const float* packed, std::size_t size, std::size_t count,
+                                      float t_max) const {
+    const Vertices a = shear(packed, size), b = shear(packed + 3 * size, size),
+                   c = shear(packed + 6 * size, size);
+    const Edges e{edge(c.x, c.y, b.x, b.y), edge(a.x, a.y, c.x, c.y), edge(b.x, b.y, a.x, a.y)};
+    auto may_hit = hn::And(line_may_pass(e), hn::FirstN(kLanes, count));
+    if (HWY_LIKELY(hn::AllFalse(kLanes, may_hit))) return 0;
+    if constexpr (kPreciseEdges) may_hit = hn::And(may_hit, distance_may_count(e, a.z, b.z, c.z, t_max));
+    return bits_of(kLanes, may_hit);
   }
 
  private:
+  using Floats = hn::Vec<Lanes>;
   struct Vertices {
     Floats x, y, z;
   };
@@ -90,21 +97,6 @@ class CellTest {
     const Floats z = hn::Sub(k(ray_.kz), oz_);
     return {hn::Sub(hn::Sub(k(ray_.kx), ox_), hn::Mul(sx_, z)),
             hn::Sub(hn::Sub(k(ray_.ky), oy_), hn::Mul(sy_, z)), z};
-  }
-
-  /// Bit i is set if the ray may hit triangle i of `count` at a t up to `t_max`.
-  /// @param size  distance between the arrays of packed vertices
-  HWY_INLINE std::uint64_t candidates(const float* packed, std::size_t size, std::size_t count,
-                                      float t_max) const {
-    const Vertices a = shear(packed, size), b = shear(packed + 3 * size, size),
-                   c = shear(packed + 6 * size, size);
-    const Edges e{edge(c.x, c.y, b.x, b.y), edge(a.x, a.y, c.x, c.y), edge(b.x, b.y, a.x, a.y)};
-    auto may_hit = hn::And(line_may_pass(e), hn::FirstN(kLanes, count));
-    if (HWY_LIKELY(hn::AllFalse(kLanes, may_hit))) return 0;
-    if constexpr (kPreciseEdges) may_hit = hn::And(may_hit, distance_may_count(e, a.z, b.z, c.z, t_max));
-    std::uint8_t bytes[8];
-    hn::StoreMaskBits(kLanes, may_hit, bytes);
-    return bytes[0];
   }
 
   /// No two edge functions have opposite signs. Not a number compares as false and so rules out nothing.
@@ -134,6 +126,42 @@ class CellTest {
 
   const ShearedRay& ray_;
   const Floats sx_, sy_, ox_, oy_, oz_;
+};
+
+/// Tests the triangles of cells, many at a time: hits are those of brute force to the bit.
+class CellTest {
+ public:
+  HWY_INLINE explicit CellTest(const ShearedRay& ray) : ray_(ray), few_(ray), many_(ray) {}
+
+  /// intersect() with each triangle of the cell's list. Sixteen lanes took longer for lists of a few.
+  template <bool kAny>
+  HWY_INLINE bool operator()(const GridCells& grid, const GridCells::Record& list, Hit& best) const {
+    return list.count <= 8 ? test<kAny>(few_, grid, list, best) : test<kAny>(many_, grid, list, best);
+  }
+
+ private:
+  template <bool kAny, class Block>
+  HWY_INLINE bool test(const Block& block, const GridCells& grid, const GridCells::Record& list,
+                       Hit& best) const {
+    const std::size_t size = list.count;
+    const float* packed = grid.packed(list);
+    const std::uint32_t* triangles = grid.references.data() + list.begin;
+    bool hit = false;
+    for (std::size_t i = 0; i < size; i += hn::Lanes(block.kLanes)) {
+      for (std::uint64_t rest = block.candidates(packed + i, size, size - i, best.t); rest != 0;
+           rest &= rest - 1) {
+        const std::size_t j = i + static_cast<std::size_t>(std::countr_zero(rest));
+        if (triangles[j] == best.triangle && best.t < ray_.t_max) continue;  // hit before
+        hit |= intersect(ray_, grid.triangle(list, j), triangles[j], best);
+        if (kAny && hit) return true;
+      }
+    }
+    return hit;
+  }
+
+  const ShearedRay& ray_;
+  const BlockTest<8> few_;
+  const BlockTest<GridCells::kOverread> many_;
 };
 
 /// As many slices of a grid at a time as there are lanes: a 3D DDA in parallel. In each slice the ray passes
@@ -217,10 +245,7 @@ class Slices {
     const Ints word = hn::GatherIndex(n, words, hn::ShiftLeft<1>(hn::ShiftRight<5>(index)));
     const Ints bit = hn::Shl(hn::Set(n, 1), hn::And(index, hn::Set(n, 31)));
     const auto occupied = hn::And(hn::TestBit(word, bit), hn::RebindMask(n, wanted));
-    std::uint8_t bytes[8];
-    hn::StoreMaskBits(n, occupied, bytes);
-    std::uint64_t bits = bytes[0];
-    if (hn::Lanes(n) > 8) bits |= static_cast<std::uint64_t>(bytes[1]) << 8;
+    std::uint64_t bits = bits_of(n, occupied);
     bits = (bits | bits << 24) & 0x000000FF000000FF;
     bits = (bits | bits << 12) & 0x000F000F000F000F;
     bits = (bits | bits << 6) & 0x0303030303030303;
