@@ -31,6 +31,7 @@ struct HardCase {
 [[nodiscard]] std::span<const HardCase> surface_cases();
 [[nodiscard]] std::span<const HardCase> furnace_cases();
 [[nodiscard]] std::span<const HardCase> estimator_cases();  // of no backend; their "rays" are what is checked
+[[nodiscard]] std::span<const HardCase> transport_cases();
 /// Without accelerators: run once, as the backend "-".
 [[nodiscard]] std::span<const HardCase> sampling_cases();
 

@@ -59,6 +59,10 @@ INSTANTIATE_TEST_SUITE_P(Mesh, Hard,
 INSTANTIATE_TEST_SUITE_P(Surface, Hard,
                          testing::Combine(testing::ValuesIn(surface_cases().begin(), surface_cases().end()),
                                           testing::ValuesIn(kBackends)));
+INSTANTIATE_TEST_SUITE_P(Transport, Hard,
+                         testing::Combine(testing::ValuesIn(transport_cases().begin(),
+                                                            transport_cases().end()),
+                                          testing::ValuesIn(kBackends)));
 INSTANTIATE_TEST_SUITE_P(Sampling, Hard,
                          testing::Combine(testing::ValuesIn(sampling_cases().begin(), sampling_cases().end()),
                                           testing::Values(std::string_view("-"))));
