@@ -90,7 +90,7 @@ def scene_section(scene, results, folder):
     svg = plots.save(plots.efficiency_plot(configurations), folder, f"{name}-efficiency")
     parts += [figure(svg, f"Efficiency after {seconds:g} s."), figures_table(configurations, seconds),
               '<p class="note">In brackets: 95 % confidence over seeds. Slope: of the root of relMSE over samples; independent '
-              "samples have -0.5. * not reached by all runs: goes on with the error as one over the time. The last column "
+              "samples have -0.5. A run that ends up to a fifth before a time counts there with its last error. * not reached by all runs: goes on with the error as one over the time. The last column "
               "is lemma compare --statistical on the first seed.</p>",
               f"<h3>Images after {seconds:g} s</h3>", viewer(scene, configurations, reference)]
     return "\n".join(parts)

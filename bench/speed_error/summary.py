@@ -7,7 +7,7 @@ import estimates
 TARGET = 0.01  # relMSE
 TIMES = (1.0, 10.0, 60.0)  # seconds
 FIRST_FITTED = 4  # samples a pixel: with fewer, the error is that of images full of holes
-NEARLY = 1.02  # a run counts as having lasted a time if it fell short by 2 %: passes are whole
+NEARLY = 1.25  # passes are whole: a run that ends this much before a time counts there with its last, larger error
 
 
 def points(figures, key):
@@ -70,13 +70,15 @@ def summarize(renderings, effort):
         runs.setdefault(r["scene"], {}).setdefault(r["configuration"], []).append(r["figures"])
     scenes = {}
     for scene, by_configuration in runs.items():
-        baseline = efficiencies(next(iter(by_configuration.values())))
+        baseline_name, baseline_runs = next(iter(by_configuration.items()))
+        baseline = efficiencies(baseline_runs)
         scenes[scene] = {
             name: {
                 "curve": curve(found),
                 "slope": fitted_slope(found),
                 "efficiency": estimates.geometric_mean(efficiencies(found)).as_json(),
-                "efficiency_ratio": estimates.ratio(efficiencies(found), baseline).as_json(),
+                "efficiency_ratio": (estimates.Estimate(1, 1, 1) if name == baseline_name else
+                                     estimates.ratio(efficiencies(found), baseline)).as_json(),
                 "at": {f"{t:g}": error_at_time(found, t) for t in sorted({*TIMES, effort.seconds})},
                 "to_target": time_to_target(found),
                 "samples_per_second": estimates.geometric_mean(
