@@ -149,7 +149,8 @@ struct PartSum {
   int count = 0;
 };
 
-void expect_equal_means(Lobe lobe, std::uint32_t spp) {
+/// @param part_bias  of a part shared by several estimators, that is found at least [of the mean]
+void expect_equal_means(Lobe lobe, std::uint32_t spp, double part_bias) {
   const auto scene_of = [&](LobeSampling sampling) {
     return glossy_room({.lobe = lobe, .sampling = sampling});
   };
@@ -207,7 +208,7 @@ void expect_equal_means(Lobe lobe, std::uint32_t spp) {
       "a part\n",
       limit, block_limit, 100 * detectable, 100 * detectable_part);
   EXPECT_LT(detectable, 0.02);
-  EXPECT_LT(detectable_part, 0.006);
+  EXPECT_LT(detectable_part, part_bias);
 }
 
 /// A plate in a box whose walls emit 1 and absorb: whatever leaves it is its directional albedo.
@@ -272,11 +273,11 @@ TEST(Furnace, PlateReflectsItsDirectionalAlbedo) {
 }
 
 TEST(Estimators, PhongHasOneMean) {
-  expect_equal_means(Lobe::phong, 32);
+  expect_equal_means(Lobe::phong, 32, 0.006);
 }
 
 TEST(Estimators, BlinnPhongHasOneMean) {
-  expect_equal_means(Lobe::blinn_phong, 32);
+  expect_equal_means(Lobe::blinn_phong, 48, 0.01);
 }
 
 }  // namespace
