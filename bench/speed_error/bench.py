@@ -21,7 +21,7 @@ def parse_arguments():
     parser = argparse.ArgumentParser(prog="./run bench", description=__doc__, allow_abbrev=False)
     parser.add_argument("scenes", nargs="*", default=list(plan.SCENES), metavar="SCENE",
                         help="scenes of our own by name, others by path (default: all of our own)")
-    parser.add_argument("--quick", action="store_true", help="small images, half a second each, five seeds: under 5 minutes")
+    parser.add_argument("--quick", action="store_true", help="small images, half a second each, five seeds, no hard cases: under 5 minutes")
     parser.add_argument("--cross", action="store_true", help="all combinations, not only one difference from the default")
     parser.add_argument("--seconds", type=float, help="of each rendering")
     parser.add_argument("--seeds", type=int, help="independent runs of each configuration")
@@ -70,7 +70,7 @@ def main():
         "renderings": renderings,
         "parity": [measure.parity(jobs, scene, effort) for scene in arguments.scenes],
         "traversal": measure.traversal(jobs, effort, PROJECT / "build/release/bench/traversal"),
-        "hard_cases": measure.hard_cases(jobs, PROJECT / "build/release/tests/hard_tests"),
+        "hard_cases": effort.hard_cases and measure.hard_cases(jobs, PROJECT / "build/release/tests/hard_tests"),
     }
     results["summary"] = summarize(renderings, effort)
     (arguments.out / "results.json").write_text(json.dumps(results))

@@ -57,11 +57,12 @@ class Effort:
     parity_rays: int
     traversal_cases: tuple  # of ./run bench-traversal
     traversal_rounds: int
+    hard_cases: bool  # their tests take minutes
 
 
-QUICK = Effort("128x72", 0.5, 5, 2048, 20000, ("veach-mis", "interior"), 1)
+QUICK = Effort("128x72", 0.5, 5, 2048, 20000, ("veach-mis", "interior"), 1, False)
 FULL = Effort("320x180", 60.0, 8, 65536, 1000000,
-              ("veach-mis", "interior", "sphere-1M", "field-1M"), 7)
+              ("veach-mis", "interior", "sphere-1M", "field-1M"), 7, True)
 SCENES = ("veach-mis", "cornell-box", "cornell-coplanar")  # folders of scenes/
 REFERENCE_SEED = 1000003
 # Not the baseline's light sampling, so that a bias of it would show; with variances of independent scramblings.
