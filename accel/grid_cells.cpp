@@ -255,7 +255,8 @@ std::optional<Part> split_crowd(const Content& parent, std::span<const std::uint
 Vec3d cell_corner(const Part& part, std::uint32_t index) {
   const auto nx = static_cast<std::uint32_t>(part.level.counts[0]);
   const auto ny = static_cast<std::uint32_t>(part.level.counts[1]);
-  return part.level.lo + Vec3d(index % nx, index / nx % ny, index / nx / ny) * part.cell_size;
+  const std::uint32_t row = index / nx, x = index % nx, y = row % ny, z = row / ny;
+  return part.level.lo + Vec3d(x, y, z) * part.cell_size;
 }
 
 /// Gives crowded cells grids.
