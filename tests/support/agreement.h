@@ -12,9 +12,9 @@ struct Run {
   std::uint32_t spp = 1;
 };
 
-/// How many times the usual samples are taken: the number in the environment variable LEMMA_AGREEMENT, else 1.
-/// With more than 1 families are the products of all options as well. The bias that can be seen falls with its
-/// root: to 0.1 % of the mean takes 64 where 0.8 % is what the table says.
+/// How many times the usual samples are taken: the number in the environment variable LEMMA_AGREEMENT,
+/// else 1. With more than 1 families are the products of all options as well. The bias that can be seen falls
+/// with its root: to 0.1 % of the mean takes 64 where 0.8 % is what the table says.
 [[nodiscard]] std::uint32_t agreement_effort();
 
 /// Chance that one of the comparisons of a family fails although all estimators have the same mean: half of
