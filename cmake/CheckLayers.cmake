@@ -8,6 +8,7 @@ set(wrapped
     "<embree[34]/" "^accel/embree_[a-z]+\\.(h|cpp)$"
     "<hwy/" "^(src/core/instruction_sets\\.h|(accel/grid_trace|src/lights/(weigh_emitters|body_trace))\\.cpp)$"
     "<pugixml" "^src/scene/"
+    "<tiny_obj_loader" "^tests/"
     "<OpenImageIO/" "^src/(render|shading)/"
     "<CLI/" "^src/app/"
     "<nlohmann/" "^src/app/"

@@ -83,7 +83,10 @@ class LibraryTest(CheckTest):
     WRAPPED = {
         "embree3/rtcore.h": "accel/embree_bvh.cpp",
         "embree4/rtcore.h": "accel/embree_api.h",
-        "tiny_obj_loader.h": "src/scene/read_obj.cpp",
+        "tiny_obj_loader.h": "tests/unit/obj_reference_test.cpp",
+        "hwy/highway.h": "accel/grid_trace.cpp",
+        "boost/math/distributions/normal.hpp": "src/measure/significance.cpp",
+        "boost/multiprecision/gmp.hpp": "src/oracle/exact.cpp",
         "pugixml.hpp": "src/scene/read_xml.cpp",
         "OpenImageIO/imageio.h": "src/render/image_file.cpp",
         "CLI/CLI.hpp": "src/app/options.cpp",
