@@ -216,12 +216,9 @@ class ObjReader {
   }
 
   void set_corner(ObjTriangle& t, std::size_t slot, const Corner& corner, int line) {
-    t.vertex[slot] = resolve(corner.vertex, file_.vertices.size(), "vertex", line);
-    t.normal[slot] =
-        corner.normal == 0 ? kNoIndex : resolve(corner.normal, file_.normals.size(), "normal", line);
-    const std::optional<std::uint32_t> texcoord = find_index(corner.texcoord, file_.texcoords.size());
-    if (corner.texcoord != 0 && !texcoord) undefined_texcoords_.add(line);
-    t.texcoord[slot] = texcoord.value_or(kNoIndex);
+    t.vertex[slot] = vertex_index(corner.vertex, line);
+    t.normal[slot] = find_or_note(corner.normal, file_.normals.size(), undefined_normals_, line);
+    t.texcoord[slot] = find_or_note(corner.texcoord, file_.texcoords.size(), undefined_texcoords_, line);
   }
 
   /// The 0-based index for one of the file; nothing if there is no such element yet.
@@ -232,11 +229,19 @@ class ObjReader {
     return static_cast<std::uint32_t>(at);
   }
 
-  std::uint32_t resolve(int index, std::size_t count, std::string_view what, int line) const {
+  /// A triangle does without normals or texture coordinates that are not defined.
+  static std::uint32_t find_or_note(int index, std::size_t count, Finding& undefined, int line) {
+    const std::optional<std::uint32_t> at = find_index(index, count);
+    if (index != 0 && !at) undefined.add(line);
+    return at.value_or(kNoIndex);
+  }
+
+  std::uint32_t vertex_index(int index, int line) const {
+    const std::size_t count = file_.vertices.size();
     const std::optional<std::uint32_t> at = find_index(index, count);
     if (!at) {
       throw SceneError({path_, line},
-                       fmt::format("a face uses {} {}, but {} {} defined before it", what, index, count,
+                       fmt::format("a face uses vertex {}, but {} {} defined before it", index, count,
                                    count == 1 ? "is" : "are"),
                        "indices count from 1; negative ones count back from the last one defined, -1");
     }
@@ -259,6 +264,8 @@ class ObjReader {
     report(bad_vertices_, "a vertex is not finite or beyond 1e18", "; triangles that use one are dropped");
     report(bad_texcoords_, "a texture coordinate is no finite number",
            "; triangles that use one have no texture");
+    report(undefined_normals_, "a face uses a normal that is not defined before it",
+           "; the corner has the normal of its triangle");
     report(undefined_texcoords_, "a face uses a texture coordinate that is not defined before it",
            "; its triangles have no texture");
     report(short_faces_, "a face has fewer than three corners", " and is left out");
@@ -272,7 +279,7 @@ class ObjReader {
   std::unordered_map<std::string, std::uint32_t> material_indices_;
   std::vector<Corner> corners_;            // of the face that is read
   std::optional<std::uint32_t> material_;  // of the faces that follow
-  Finding bad_vertices_, bad_texcoords_, undefined_texcoords_, short_faces_;
+  Finding bad_vertices_, bad_texcoords_, undefined_normals_, undefined_texcoords_, short_faces_;
 };
 
 /// What a triangle takes in loading at its peak, measured on a million triangles with normals and texture

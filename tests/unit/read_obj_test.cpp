@@ -188,12 +188,20 @@ TEST_F(ReadObj, IndexOutOfRange) {
   EXPECT_EQ(
       error_of(with_four_vertices("f 1 2 -5\n")),
       std::string("FOLDER/a.obj:5: error: a face uses vertex -5, but 4 are defined before it").append(kHint));
-  EXPECT_EQ(
-      error_of(with_four_vertices("vn 0 0 1\nf 1//1 2//1 3//2\n")),
-      std::string("FOLDER/a.obj:6: error: a face uses normal 2, but 1 is defined before it").append(kHint));
   EXPECT_EQ(error_of("f -2147483648 1 1\n"),
             std::string("FOLDER/a.obj:1: error: a face uses vertex -2147483648, but 0 are defined before it")
                 .append(kHint));
+}
+
+TEST_F(ReadObj, NormalsThatAreNotDefinedAreDoneWithout) {
+  const ObjFile obj = read(with_four_vertices("vn 0 0 1\nf 1//1 2//-1 3//2\nf 1//-2 2 3\n"));
+  EXPECT_EQ(obj.triangles[0].normal, (Indices{0, 0, kNoIndex}));
+  EXPECT_EQ(obj.triangles[1].normal, (Indices{kNoIndex, kNoIndex, kNoIndex}));
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_EQ(
+      warning(0),
+      "FOLDER/a.obj:6: warning: a face uses a normal that is not defined before it (2 in all); the corner "
+      "has the normal of its triangle");
 }
 
 TEST_F(ReadObj, WhatIsNoIndex) {
