@@ -2,12 +2,12 @@
 
 #include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 #include "src/oracle/oracle.h"
 #include "src/render/tile.h"
 #include "tests/support/images.h"
+#include "tests/support/real_scenes.h"
 
 namespace lemma {
 namespace {
@@ -85,9 +85,9 @@ TEST(SamePixels, OnOwnScenes) {
 }
 
 TEST(SamePixels, OnTheStaircase) {
-  const char* const folder = std::getenv("LEMMA_REAL_SCENES");
-  if (!folder) GTEST_SKIP() << "LEMMA_REAL_SCENES is not set";
-  Scene scene = load_scene(std::filesystem::path(folder) / "zju-2022-staircase").scene;
+  const auto folder = test::real_scenes();
+  if (!folder) GTEST_SKIP() << test::kNoRealScenes;
+  Scene scene = load_scene(*folder / "zju-2022-staircase").scene;
   scene.view.width = 96, scene.view.height = 54;
   expect_differences_explained(scene, "staircase");
 }

@@ -5,10 +5,10 @@
 #include <tiny_obj_loader.h>
 
 #include <array>
-#include <cstdlib>
 #include <fstream>
 
 #include "src/scene/read_obj.h"
+#include "tests/support/real_scenes.h"
 
 namespace lemma {
 namespace {
@@ -100,10 +100,10 @@ TEST(ObjReference, PolygonsNegativeIndicesAndMissingParts) {
 }
 
 TEST(ObjReference, ScenesOfTheCourse) {
-  const char* folder = std::getenv("LEMMA_REAL_SCENES");
-  if (folder == nullptr) GTEST_SKIP() << "LEMMA_REAL_SCENES names no folder with the scenes of the course";
+  const auto folder = test::real_scenes();
+  if (!folder) GTEST_SKIP() << test::kNoRealScenes;
   int files = 0;
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  for (const auto& entry : fs::directory_iterator(*folder)) {
     if (!entry.path().filename().string().starts_with("zju-")) continue;
     for (const auto& file : fs::directory_iterator(entry.path())) {
       if (file.path().extension() != ".obj") continue;

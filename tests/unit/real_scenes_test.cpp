@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "src/core/bounds.h"
 #include "src/scene/load_scene.h"
 #include "src/scene/scene_error.h"
+#include "tests/support/real_scenes.h"
 
 namespace lemma {
 namespace {
@@ -14,9 +13,9 @@ namespace {
 class RealScenes : public testing::Test {
  protected:
   void SetUp() override {
-    const char* folder = std::getenv("LEMMA_REAL_SCENES");
-    if (folder == nullptr) GTEST_SKIP() << "LEMMA_REAL_SCENES names no folder with the scenes of the course";
-    folder_ = folder;
+    const auto folder = test::real_scenes();
+    if (!folder) GTEST_SKIP() << test::kNoRealScenes;
+    folder_ = *folder;
   }
 
   LoadedScene load(const std::string& name) const {
