@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstdio>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -53,26 +55,43 @@ TEST_P(Hard, NoFaults) {
 
 constexpr std::string_view kBackends[] = {"grid", "brute", "embree"};
 
+/// Name and backend of a case as names of tests may be, so that --gtest_filter finds it:
+/// 8_teapot_in_a_stadium_grid.
+std::string test_name(const testing::TestParamInfo<Hard::ParamType>& info) {
+  const auto& [hard_case, backend] = info.param;
+  std::string name = std::string(hard_case.name).append("_").append(backend);
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  }
+  return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(Mesh, Hard,
                          testing::Combine(testing::ValuesIn(mesh_cases().begin(), mesh_cases().end()),
-                                          testing::ValuesIn(kBackends)));
+                                          testing::ValuesIn(kBackends)),
+                         test_name);
 INSTANTIATE_TEST_SUITE_P(Surface, Hard,
                          testing::Combine(testing::ValuesIn(surface_cases().begin(), surface_cases().end()),
-                                          testing::ValuesIn(kBackends)));
+                                          testing::ValuesIn(kBackends)),
+                         test_name);
 INSTANTIATE_TEST_SUITE_P(Transport, Hard,
                          testing::Combine(testing::ValuesIn(transport_cases().begin(),
                                                             transport_cases().end()),
-                                          testing::ValuesIn(kBackends)));
+                                          testing::ValuesIn(kBackends)),
+                         test_name);
 INSTANTIATE_TEST_SUITE_P(Sampling, Hard,
                          testing::Combine(testing::ValuesIn(sampling_cases().begin(), sampling_cases().end()),
-                                          testing::Values(std::string_view("-"))));
+                                          testing::Values(std::string_view("-"))),
+                         test_name);
 INSTANTIATE_TEST_SUITE_P(Furnace, Hard,
                          testing::Combine(testing::ValuesIn(furnace_cases().begin(), furnace_cases().end()),
-                                          testing::ValuesIn(kBackends)));
+                                          testing::ValuesIn(kBackends)),
+                         test_name);
 INSTANTIATE_TEST_SUITE_P(Estimator, Hard,
                          testing::Combine(testing::ValuesIn(estimator_cases().begin(),
                                                             estimator_cases().end()),
-                                          testing::Values(std::string_view("-"))));
+                                          testing::Values(std::string_view("-"))),
+                         test_name);
 
 }  // namespace
 }  // namespace lemma::test
