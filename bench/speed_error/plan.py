@@ -6,17 +6,22 @@ from dataclasses import dataclass
 # For each option the values to compare; the first is the default of `lemma render` and part of the baseline.
 DIMENSIONS = {
     "accel": ("embree", "grid"),
-    "integrator": ("mis", "direct", "brdf"),
+    "integrator": ("mis", "direct", "brdf", "mis-report"),
     "lights": ("tree", "projected", "solid-angle", "power", "radiance-area"),
     "mis": ("balance", "power"),
     "sampler": ("sobol", "independent"),
+}
+# The same for options that are compared with their default alone, never in combinations.
+SINGLES = {
+    "rr": ("throughput", "fixed"),
+    "brdf-sampling": ("truncated", "p6"),
 }
 BASELINE = tuple((name, values[0]) for name, values in DIMENSIONS.items())
 
 
 @dataclass(frozen=True)
 class Configuration:
-    """Values of all dimensions."""
+    """Values of all dimensions, and of a single one that differs from its default."""
 
     options: tuple
 
@@ -35,7 +40,7 @@ def has_effect(options):
     chosen = dict(options)
     if chosen["integrator"] == "brdf" and chosen["lights"] != DIMENSIONS["lights"][0]:
         return False
-    return chosen["integrator"] == "mis" or chosen["mis"] == DIMENSIONS["mis"][0]
+    return chosen["integrator"] in ("mis", "mis-report") or chosen["mis"] == DIMENSIONS["mis"][0]
 
 
 def configurations(cross):
@@ -43,7 +48,8 @@ def configurations(cross):
     everything = itertools.product(*([(name, value) for value in values] for name, values in DIMENSIONS.items()))
     chosen = (options for options in everything
               if has_effect(options) and (cross or sum(o not in BASELINE for o in options) <= 1))
-    return [Configuration(options) for options in chosen]
+    singles = (BASELINE + ((name, value),) for name, values in SINGLES.items() for value in values[1:])
+    return [Configuration(options) for options in itertools.chain(chosen, singles)]
 
 
 @dataclass(frozen=True)
@@ -57,12 +63,14 @@ class Effort:
     parity_rays: int
     traversal_cases: tuple  # of ./run bench-traversal
     traversal_rounds: int
-    hard_cases: bool  # their tests take minutes
+    hard_left_out: tuple  # hard cases, by name
+    peer_spp: int  # samples a pixel of other renderers' converged images
 
 
-QUICK = Effort("128x72", 0.5, 5, 2048, 20000, ("veach-mis", "interior"), 1, False)
+SLOW_HARD_CASES = ("8 teapot in a stadium",)  # a million rays against all triangles: nine tenths of all cases' time
+QUICK = Effort("128x72", 0.5, 5, 2048, 20000, ("veach-mis", "interior"), 3, SLOW_HARD_CASES, 1024)
 FULL = Effort("320x180", 60.0, 8, 65536, 1000000,
-              ("veach-mis", "interior", "sphere-1M", "field-1M"), 7, True)
+              ("veach-mis", "interior", "sphere-1M", "field-1M"), 7, (), 16384)
 SCENES = ("veach-mis", "cornell-box", "cornell-coplanar")  # folders of scenes/
 REFERENCE_SEED = 1000003
 # Not the baseline's light sampling, so that a bias of it would show; with variances of independent scramblings.

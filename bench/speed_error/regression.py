@@ -1,27 +1,61 @@
-"""Comparison of two runs by ratio: on the same machine, is any configuration less efficient than it was?"""
+"""Comparison of two runs by ratio: is any configuration less efficient than it was?
 
-ALLOWED = 0.8  # ratio to the baseline that noise and the weather of the machine may explain
+What is compared does not depend on how fast the machine is: samples are worth what they do for the error, and their time is
+counted in rays that Embree, which is not ours, traces in the same run in one thread (the traversal table). Processor time, since
+other work on the machine does not count there. What is left are differences between processors: the tolerance is for them, too.
+"""
+
+import math
+
+ALLOWED = 0.8  # ratio to the baseline that noise and another processor may explain
 REGRESSED = 3  # exit code, as that of lemma when a comparison fails
+EFFORT = ("size", "seconds")  # efficiencies of other ones are others: of sizes, and where the slope is not -1/2
 
 
-def worsened(summary, baseline):
+def embree_rays_per_second(results):
+    """Geometric mean over all cases and kinds of rays; None without the traversal table."""
+    if not results["traversal"]:
+        return None
+    rates = [t["embree_rays_per_s"] for case in results["traversal"]["cases"] for t in case["trace"].values()]
+    return math.exp(sum(map(math.log, rates)) / len(rates))
+
+
+def baseline_of(results):
+    """What is kept of a run: 1 / (relMSE x Embree rays), as intervals, by scene and configuration."""
+    rate = embree_rays_per_second(results)
+    if rate is None:
+        raise ValueError("a baseline needs the traversal table: build the program traversal")
+    efficiencies = {
+        scene: {name: {key: figures["cpu_efficiency"][key] and figures["cpu_efficiency"][key] / rate
+                       for key in ("value", "low", "high")}
+                for name, figures in configurations.items() if not figures["peer"]}
+        for scene, configurations in results["summary"].items()}
+    return {**{key: results[key] for key in ("machine", "version", "commit", "date")},
+            "effort": {key: results["effort"][key] for key in EFFORT},
+            "traversal_cases": [case["case"] for case in results["traversal"]["cases"]],
+            "efficiency_per_embree_ray": efficiencies}
+
+
+def worsened(now, before):
     """(scene, configuration, ratio) of all that both have, and those whose ratio's interval ends below what is allowed."""
+    for key in ("effort", "traversal_cases"):
+        if now[key] != before[key]:
+            raise ValueError(f"the baseline was measured with {key} {before[key]}, this run with {now[key]}")
     rows, bad = [], []
-    for scene, configurations in summary.items():
+    for scene, configurations in now["efficiency_per_embree_ray"].items():
         for name, figures in configurations.items():
-            before = baseline.get(scene, {}).get(name)
-            if before is None:
+            then = before["efficiency_per_embree_ray"].get(scene, {}).get(name)
+            if then is None:
                 continue
-            now, then = figures["efficiency"], before["efficiency"]
-            row = (scene, name, now["value"] / then["value"])
+            row = (scene, name, figures["value"] / then["value"])
             rows.append(row)
-            if (now["high"] or now["value"]) / (then["low"] or then["value"]) < ALLOWED:
+            if (figures["high"] or figures["value"]) / (then["low"] or then["value"]) < ALLOWED:
                 bad.append(row)
     return rows, bad
 
 
-def compare_with_baseline(summary, baseline):
-    rows, bad = worsened(summary, baseline)
+def compare_with_baseline(now, before):
+    rows, bad = worsened(now, before)
     print(f"{'scene':<20}{'configuration':<28}{'efficiency, ratio to baseline':>30}")
     for scene, name, ratio in rows:
         print(f"{scene:<20}{name:<28}{ratio:>30.3f}{'  worse' if (scene, name, ratio) in bad else ''}")

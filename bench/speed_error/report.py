@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import plots
-from summary import TARGET
+from summary import TARGET, verdict
 
 HERE = Path(__file__).resolve().parent
 
@@ -42,20 +42,46 @@ def file_name(text):
     return "".join(c if c.isalnum() else "-" for c in Path(text).name)
 
 
-def figures_table(configurations, seconds):
-    times = list(next(iter(configurations.values()))["at"])
-    head = ["configuration", "samples/s", "slope of RMSE", *(f"relMSE at {t} s" for t in times), f"s to relMSE {TARGET:g}",
-            "efficiency / default", f"FLIP at {seconds:g} s", "mean against the reference"]
+VERDICTS = {"best": "the default is the most efficient", "within 10 %": "the default is within 10 % of the most efficient",
+            "worse": "the default is NOT within 10 % of the most efficient", "open": "undecided whether the default is within 10 % of the best"}
+
+
+def verdict_text(configurations):
+    """Whether the default is as good as the best configuration."""
+    found = verdict(configurations)
+    best = "" if found["verdict"] == "best" else f": {found['best']} has {interval(found['advantage'])} times its efficiency"
+    return f"{VERDICTS[found['verdict']]}{best}, by CPU time"
+
+
+def verdict_lines(summary):
+    """The verdicts of all scenes."""
+    for scene, configurations in summary.items():
+        yield f"{Path(scene).name}: {verdict_text(configurations)}"
+
+
+def errors_table(configurations):
+    times = [t for t in next(iter(configurations.values()))["at"] if any(f["at"][t] for f in configurations.values())]
+    spp = next((f["at_spp"]["spp"] for f in configurations.values() if f["at_spp"]), None)
+    head = ["configuration", "samples/s", "slope of RMSE", *(f"relMSE at {t} s" for t in times),
+            *([f"relMSE at {spp} spp"] if spp else []), f"s to relMSE {TARGET:g}"]
+    rows = []
+    for name, f in configurations.items():
+        target = interval(f["to_target"]) + ("" if f["to_target"]["reached"] else " *")
+        rows.append([name, f"{f['samples_per_second']:.3g}", interval(f["slope"]), *(interval(f["at"][t]) for t in times),
+                     *([interval(f["at_spp"])] if spp else []), target])
+    return table(head, rows)
+
+
+def efficiency_table(configurations, seconds):
+    head = ["configuration", "efficiency / default", "the same by CPU time", f"FLIP at {seconds:g} s", "mean against the reference"]
     rows = []
     for name, f in configurations.items():
         views = f["views"]
-        verdict = "-"
+        agrees = "-"
         if views:
-            verdict = ("different", "bad") if views["statistical"]["different"] else ("agrees", "good")
-        target = interval(f["to_target"]) + ("" if f["to_target"]["reached"] else " *")
-        rows.append([name, f"{f['samples_per_second']:.3g}", interval(f["slope"]),
-                     *(interval(f["at"][t]) for t in times), target, interval(f["efficiency_ratio"]),
-                     f"{views['flip']:.3g}" if views else "-", verdict])
+            agrees = ("different", "bad") if views["statistical"]["different"] else ("agrees", "good")
+        rows.append([name, interval(f["efficiency_ratio"]), interval(f["cpu_efficiency_ratio"]),
+                     f"{views['flip']:.3g}" if views else "-", agrees])
     return table(head, rows)
 
 
@@ -88,10 +114,13 @@ def scene_section(scene, results, folder):
         svg = plots.save(plots.error_plot(configurations, key, unit, f"{name}-{key}"), folder, f"{name}-{key}")
         parts.append(figure(svg, f"Error against {unit}. Bands: 95 % over {results['effort']['seeds']} seeds."))
     svg = plots.save(plots.efficiency_plot(configurations), folder, f"{name}-efficiency")
-    parts += [figure(svg, f"Efficiency after {seconds:g} s."), figures_table(configurations, seconds),
-              '<p class="note">In brackets: 95 % confidence over seeds. Slope: of the root of relMSE over samples; independent '
-              "samples have -0.5. A run that ends up to a fifth before a time counts there with its last error. * not reached by all runs: goes on with the error as one over the time. The last column "
-              "is lemma compare --statistical on the first seed.</p>",
+    text = verdict_text(configurations)
+    parts += [figure(svg, f"Efficiency after {seconds:g} s."), f'<p class="verdict">{escape(text[0].upper() + text[1:])}.</p>',
+              efficiency_table(configurations, seconds), errors_table(configurations),
+              '<p class="note">In brackets: 95 % confidence over seeds. By CPU time: of all threads, in which other work on the machine '
+              "does not count. The mean against the reference: lemma compare --statistical on the first seed. Slope: of the root of "
+              "relMSE over samples; independent samples have -0.5. A run that ends up to a fifth before a time counts there with its "
+              "last error. * not reached by all runs: goes on with the error as one over the time.</p>",
               f"<h3>Images after {seconds:g} s</h3>", viewer(scene, configurations, reference)]
     return "\n".join(parts)
 
@@ -115,9 +144,28 @@ def accelerator_section(results, folder):
               table(["scene", "accelerator", "rays", "decided", "wrong", "missed", "occlusion", "verdict"], rows)]
     if results["hard_cases"]:
         rows = [[h["case"], h["backend"], h["expected"], h["tried"],
-                 (str(h["faults"]), "good" if h["faults"] == 0 else "bad"), h["allowed"]] for h in results["hard_cases"]]
+                 (str(h["faults"]), "good" if h["faults"] == 0 else "bad"), h["allowed"]] for h in results["hard_cases"]["rows"]]
         parts += ["<h3>Hard cases</h3>", table(["case", "accelerator", "expected", "tried", "faults", "allowed"], rows)]
+        if left_out := results["hard_cases"]["left_out"]:
+            parts.append(f'<p class="note">Left out for their time: {escape("; ".join(left_out))}.</p>')
     return "\n".join(parts)
+
+
+def peer_section(results):
+    """Whether converged images of other renderers have the mean of our references."""
+    if not results["peers"]:
+        return ""
+    rows = []
+    for p in results["peers"]:
+        test = p["statistical"]
+        z = max(test["global_z"], key=abs)
+        rows.append([Path(p["scene"]).name, p["peer"], p["spp"], f"{max(0, p['relmse']):.2g}", f"{z:+.2f} of {test['global_limit']:.2f}",
+                     f"{test['worst_block']['z']:+.2f} of {test['block_limit']:.2f}", f"{test['block_alarms']} of {test['block_tests']}",
+                     ("different", "bad") if test["different"] else ("agrees", "good")])
+    head = ["scene", "renderer", "spp", "relMSE", "largest z of the image", "largest z of a block", "block alarms", "verdict"]
+    return ('<h2 id="peers">Other renderers</h2><p>The same camera, triangles, box filter, lights, reflection, length of paths and '
+            "begin of roulette, rendered by others with as many threads; their curves are among ours above. Here their converged "
+            "images are tested against our references for equal means (lemma compare --statistical).</p>" + table(head, rows))
 
 
 def write_csv(results, path):
@@ -136,7 +184,7 @@ def write_report(results, folder):
     plot_folder.mkdir(parents=True, exist_ok=True)
     machine, effort = results["machine"], results["effort"]
     sections = [scene_section(scene, results, plot_folder) for scene in results["summary"]]
-    accelerators = accelerator_section(results, plot_folder)
+    accelerators = accelerator_section(results, plot_folder) + peer_section(results)
     links = "".join(f'<a href="#{escape(file_name(s))}">{escape(s)}</a>' for s in results["summary"])
     page = f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -144,9 +192,9 @@ def write_report(results, folder):
 <style>{(HERE / 'style.css').read_text()}</style></head><body>
 <h1>Lemma: speed against error</h1>
 <p>{escape(results['version'])}, commit {escape(results['commit'])}; {escape(machine['processor'])}, {machine['threads']} threads,
-{machine['memory_gb']} GB, {escape(machine['system'])}. Each configuration rendered {effort['size']} pixels for {effort['seconds']:g} s
+{machine['memory_gb']} GB, {escape(machine['system'])}; {escape(results['date'])}. Each configuration rendered {effort['size']} pixels for {effort['seconds']:g} s
 with {effort['seeds']} seeds, in turns. relMSE is the mean of (I - R)<sup>2</sup> / (R<sup>2</sup> + 0.01).</p>
-<nav>{links}<a href="#accelerators">Accelerators</a></nav>
+<nav>{links}<a href="#accelerators">Accelerators</a>{'<a href="#peers">Other renderers</a>' if results['peers'] else ''}</nav>
 {''.join(sections)}
 {accelerators}
 <script>{(HERE / 'viewer.js').read_text()}</script>

@@ -7,6 +7,7 @@ import estimates
 TARGET = 0.01  # relMSE
 TIMES = (1.0, 10.0, 60.0)  # seconds
 FIRST_FITTED = 4  # samples a pixel: with fewer, the error is that of images full of holes
+AS_GOOD = 1.1  # the default may be less efficient than the best configuration by this factor
 NEARLY = 1.25  # passes are whole: a run that ends this much before a time counts there with its last, larger error
 
 
@@ -45,10 +46,10 @@ def time_to_target(runs):
             "reached": all(reached for _, reached in found)}
 
 
-def efficiencies(runs):
-    """1 / (relMSE x seconds) at the end of each run."""
+def efficiencies(runs, time="seconds"):
+    """1 / (relMSE x seconds) at the end of each run; with `time` "cpu_seconds", of all threads' processor time."""
     last = [figures["error_curve"][-1] for figures in runs]
-    return [1 / (max(p["relmse"], 1e-12) * p["seconds"]) for p in last]
+    return [1 / (max(p["relmse"], 1e-12) * p[time]) for p in last]
 
 
 def fitted_slope(runs):
@@ -63,22 +64,51 @@ def fitted_slope(runs):
     return estimates.slope(curves).as_json()
 
 
+def common_spp(curves):
+    """The most samples a pixel that all configurations reached; None if there is no such number."""
+    return max(set.intersection(*({p["spp"] for p in points} for points in curves)), default=None)
+
+
+def verdict(configurations):
+    """Whether the first configuration is the most efficient, or within 10 % of it, by processor time: "best", "within 10 %",
+    "worse" if the interval of the best one's advantage lies above that, else "open"; and the best one with its advantage.
+    Other renderers do not count."""
+    ours = {name: f["cpu_efficiency_ratio"] for name, f in configurations.items() if not f["peer"]}
+    best, advantage = max(ours.items(), key=lambda item: item[1]["value"])
+    if best == next(iter(ours)):
+        word = "best"
+    elif advantage["value"] <= AS_GOOD:
+        word = "within 10 %"
+    else:
+        word = "worse" if (advantage["low"] or 0) > AS_GOOD else "open"
+    return {"verdict": word, "best": best, "advantage": advantage}
+
+
 def summarize(renderings, effort):
     """For each scene its configurations in the order they were run; the first is the baseline."""
     runs = {}
     for r in renderings:
         runs.setdefault(r["scene"], {}).setdefault(r["configuration"], []).append(r["figures"])
+    peers = {r["configuration"] for r in renderings if r.get("peer")}
     scenes = {}
     for scene, by_configuration in runs.items():
         baseline_name, baseline_runs = next(iter(by_configuration.items()))
-        baseline = efficiencies(baseline_runs)
+        baseline, cpu_baseline = efficiencies(baseline_runs), efficiencies(baseline_runs, "cpu_seconds")
+        curves = {name: curve(found) for name, found in by_configuration.items()}
+        spp = common_spp(curves.values())
+        same = estimates.Estimate(1, 1, 1)
         scenes[scene] = {
             name: {
-                "curve": curve(found),
+                "peer": name in peers,
+                "curve": curves[name],
+                "at_spp": next(({"spp": spp, **p["relmse"]} for p in curves[name] if p["spp"] == spp), None),
                 "slope": fitted_slope(found),
                 "efficiency": estimates.geometric_mean(efficiencies(found)).as_json(),
-                "efficiency_ratio": (estimates.Estimate(1, 1, 1) if name == baseline_name else
+                "efficiency_ratio": (same if name == baseline_name else
                                      estimates.ratio(efficiencies(found), baseline)).as_json(),
+                "cpu_efficiency": estimates.geometric_mean(efficiencies(found, "cpu_seconds")).as_json(),
+                "cpu_efficiency_ratio": (same if name == baseline_name else
+                                         estimates.ratio(efficiencies(found, "cpu_seconds"), cpu_baseline)).as_json(),
                 "at": {f"{t:g}": error_at_time(found, t) for t in sorted({*TIMES, effort.seconds})},
                 "to_target": time_to_target(found),
                 "samples_per_second": estimates.geometric_mean(

@@ -9,6 +9,8 @@ except ImportError as missing:
     raise unittest.SkipTest(f"{missing}: apt install python3-numpy") from None
 
 import estimates
+import measure
+import plan
 import regression
 import summary
 
@@ -93,7 +95,7 @@ class SummaryTest(unittest.TestCase):
     @staticmethod
     def rendering(name, seed, relmse, seconds):
         """A run of 8 samples a pixel whose error falls as one over the samples."""
-        points = [{"spp": n, "seconds": seconds * n / 8, "rmse": 1, "relmse": relmse * 8 / n} for n in (1, 2, 4, 8)]
+        points = [{"spp": n, "seconds": seconds * n / 8, "cpu_seconds": seconds * n / 4, "rmse": 1, "relmse": relmse * 8 / n} for n in (1, 2, 4, 8)]
         return {"scene": "s", "configuration": name, "seed": seed,
                 "figures": {"error_curve": points, "camera_samples_per_second": 1000}}
 
@@ -113,18 +115,96 @@ class SummaryTest(unittest.TestCase):
         self.assertEqual([p["spp"] for p in figures["twice"]["curve"]], [1, 2, 4, 8])
 
 
+    def test_errors_at_equal_samples(self):
+        runs = [self.rendering(name, seed, relmse, 2.0) for seed in (1, 2) for name, relmse in (("default", 0.02), ("twice", 0.01))]
+        runs[-1]["figures"]["error_curve"].pop()  # one run that ended before 8 samples
+        figures = summary.summarize(runs, type("Effort", (), {"seconds": 2.0}))["s"]
+        self.assertEqual([figures[name]["at_spp"]["spp"] for name in ("default", "twice")], [4, 4])
+        self.assertAlmostEqual(figures["default"]["at_spp"]["value"] / figures["twice"]["at_spp"]["value"], 2)
+
+
+class VerdictTest(unittest.TestCase):
+    @staticmethod
+    def verdict(low, value, high, peer=False):
+        def figures(ratio, peer):
+            return {"peer": peer, "cpu_efficiency_ratio": dict(zip(("low", "value", "high"), ratio))}
+
+        return summary.verdict({"default": figures((1, 1, 1), False), "other": figures((low, value, high), peer)})
+
+    def test_words(self):
+        for other, word, best in (((0.7, 0.8, 0.9), "best", "default"), ((1.01, 1.05, 1.09), "within 10 %", "other"),
+                                  ((1.05, 1.2, 1.4), "open", "other"), ((1.12, 1.2, 1.3), "worse", "other"),
+                                  ((None, 1.2, None), "open", "other")):
+            found = self.verdict(*other)
+            self.assertEqual((found["verdict"], found["best"]), (word, best), other)
+
+    def test_other_renderers_do_not_count(self):
+        self.assertEqual(self.verdict(3, 4, 5, peer=True)["verdict"], "best")
+
+
 class RegressionTest(unittest.TestCase):
     @staticmethod
-    def summary_of(value):
-        return {"s": {"default": {"efficiency": {"value": value, "low": 0.95 * value, "high": 1.05 * value}}}}
+    def results(efficiency, rays_per_second=1e6, size="8x8"):
+        """A run of one configuration, and of a peer, on a machine that traces so many rays a second."""
+        def figures(peer):
+            return {"peer": peer, "cpu_efficiency": {"value": efficiency, "low": 0.95 * efficiency, "high": 1.05 * efficiency}}
+
+        trace = {"primary": {"embree_rays_per_s": 2 * rays_per_second}, "shadow": {"embree_rays_per_s": rays_per_second / 2}}
+        return {"machine": "m", "version": "v", "commit": "c", "date": "d", "effort": {"size": size, "seconds": 1, "seeds": 5},
+                "traversal": {"cases": [{"case": "veach-mis", "trace": trace}]},
+                "summary": {"s": {"default": figures(False), "peer": figures(True)}}}
+
+    def bad(self, now, before):
+        return len(regression.worsened(regression.baseline_of(now), regression.baseline_of(before))[1])
 
     def test_only_what_is_clearly_worse_is_told(self):
         for value, bad in ((100, 0), (85, 0), (60, 1), (150, 0)):
-            _, found = regression.worsened(self.summary_of(value), self.summary_of(100))
-            self.assertEqual(len(found), bad, value)
+            self.assertEqual(self.bad(self.results(value), self.results(100)), bad, value)
+
+    def test_the_speed_of_the_machine_does_not_count(self):
+        self.assertEqual(self.bad(self.results(50, 5e5), self.results(100, 1e6)), 0)
+        self.assertEqual(self.bad(self.results(100, 2e6), self.results(100, 1e6)), 1)
+
+    def test_other_renderers_have_no_baseline(self):
+        self.assertEqual(list(regression.baseline_of(self.results(1))["efficiency_per_embree_ray"]["s"]), ["default"])
 
     def test_new_configurations_have_no_baseline(self):
-        self.assertEqual(regression.worsened(self.summary_of(1), {})[0], [])
+        before = regression.baseline_of(self.results(1))
+        before["efficiency_per_embree_ray"] = {}
+        self.assertEqual(regression.worsened(regression.baseline_of(self.results(1)), before)[0], [])
+
+    def test_other_efforts_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "effort"):
+            self.bad(self.results(1), self.results(1, size="9x9"))
+
+
+class HardCaseTableTest(unittest.TestCase):
+    def test_rows(self):
+        text = ("[  OK  ] x (3 ms)\n"
+                "case                                    backend  expected                 tried  faults  allowed\n"
+                "1 edges and vertices of a closed mesh   grid     no ray leaves            16560       3        0\n"
+                "16 closed meshes                        -        4 pi or 0                  120       0        0\n"
+                "12 rays that leave surfaces, grazing    embree   none hits its own       300000       7    shown\n")
+        rows = measure.hard_rows(text)
+        self.assertEqual([row["backend"] for row in rows], ["grid", "-", "embree"])
+        self.assertEqual(rows[0], {"case": "1 edges and vertices of a closed mesh", "backend": "grid", "expected": "no ray leaves",
+                                   "tried": 16560, "faults": 3, "allowed": "0"})
+        self.assertEqual((rows[2]["tried"], rows[2]["faults"], rows[2]["allowed"]), (300000, 7, "shown"))
+
+
+class PlanTest(unittest.TestCase):
+    def test_one_difference_at_a_time(self):
+        names = [c.name for c in plan.configurations(cross=False)]
+        others = [f"{name} {value}" for name, values in (plan.DIMENSIONS | plan.SINGLES).items() for value in values[1:]]
+        self.assertEqual(names[0], "default")
+        self.assertEqual(sorted(names[1:]), sorted(others))
+
+    def test_all_combinations_have_an_effect(self):
+        names = [c.name for c in plan.configurations(cross=True)]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertIn("accel grid, integrator mis-report, lights power, mis power, sampler independent", names)
+        self.assertNotIn("integrator brdf, lights power", names)
+        self.assertNotIn("integrator direct, mis power", names)
 
 
 if __name__ == "__main__":

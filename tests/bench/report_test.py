@@ -44,22 +44,31 @@ def rendering(scene, index, seed):
     return {"scene": scene, "configuration": CONFIGURATIONS[index], "seed": seed, "figures": figures}
 
 
+PEER = "Mitsuba 3"
+
+
 def made_up_results(scenes=("veach-mis", "a <b> & c")):
     interval = {"value": 1e-4, "low": 9e-5, "high": 1.1e-4}
     effort = type("Effort", (), {"seconds": 1.6})
     renderings = [rendering(scene, i, seed) for seed in (1, 2, 3) for scene in scenes for i in range(len(CONFIGURATIONS))]
+    renderings += [{**rendering(scene, 3, seed), "configuration": PEER, "peer": True} for seed in (1, 2, 3) for scene in scenes]
     stats = {"model": "Lambert", "width": 16, "height": 9, "spp": 4096, "integrator": "mis", "lights": "tree", "seed": 9,
              "estimated_error": {"relmse": interval}}
     total = {"rays": 10, "decided": 9, "wrong": 0, "missed": 1, "wrong_occlusion": 0}
     rays = {"grid_rays_per_s": 2e6, "embree_rays_per_s": 1e6, "ratio": 2}
     return {
         "machine": {"processor": "P", "threads": 2, "memory_gb": 4, "system": "S"}, "version": "lemma 0", "commit": "c",
+        "date": "2026-01-02",
         "effort": {"seconds": 1.6, "seeds": 3, "size": "16x9"},
         "references": {scene: {"picture": picture(0.5), "stats": stats} for scene in scenes},
         "renderings": renderings, "summary": summarize(renderings, effort),
         "parity": [{"scene": "veach-mis", "accelerators": [{"accel": "embree", "total": total}]}],
         "traversal": {"cases": [{"case": "teapot", "trace": {"primary": rays, "bounce": rays}}]},
-        "hard_cases": [{"case": "edges", "backend": "grid", "expected": "a hit", "tried": 5, "faults": 0, "allowed": "0"}],
+        "hard_cases": {"rows": [{"case": "edges", "backend": "grid", "expected": "a hit", "tried": 5, "faults": 0, "allowed": "0"}],
+                       "left_out": ["8 teapot"]},
+        "peers": [{"scene": "veach-mis", "peer": "mitsuba 9", "spp": 1024, "relmse": 0.01,
+                   "statistical": {"different": True, "global_z": [0.1, -9, 2], "global_limit": 3.76, "block_alarms": 2,
+                                   "block_tests": 9, "block_limit": 4.9, "worst_block": {"z": 6}}}],
     }
 
 
@@ -98,7 +107,7 @@ class ReportTest(unittest.TestCase):
         for plot in plots:
             self.assertGreater(plot.size["width"], 500)
             self.assertGreater(plot.size["height"], 50)
-        for curve in range(len(CONFIGURATIONS)):
+        for curve in range(len(CONFIGURATIONS) + 1):  # and the peer's
             lines = self.find(f"[id$='-curve-{curve}'] > path")  # without the markers
             self.assertEqual(len(lines), 4)
             for line in lines:
@@ -148,14 +157,30 @@ class ReportTest(unittest.TestCase):
         self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
         self.browser.get(self.page.as_uri())
         self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), 390)
+        self.assertGreater(self.find("figure svg")[0].size["width"], 500, "wide enough to read, in a box that scrolls")
 
     def test_names_of_scenes_are_text(self):
         self.assertIn("a <b> & c", [heading.text for heading in self.find("h2")])
 
     def test_verdicts(self):
         cells = [cell.text for cell in self.find("td.bad")]
-        self.assertEqual(cells.count("different"), 2)
+        self.assertEqual(cells.count("different"), 4 + 1)  # of both scenes' fourth configuration and the peer; of the peer's table
         self.assertIn("1 faults", cells)
+        self.assertEqual([p.text for p in self.find("p.verdict")], 2 * ["The default is the most efficient, by CPU time."])
+        self.assertIn("Left out for their time: 8 teapot.", [p.text for p in self.find("p.note")])
+
+    def test_printed_page(self):
+        """A sheet of paper shows the images but no controls, and nothing is cut off at its edge."""
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",  # A4 without margins of 1 cm, at 96 dots an inch
+                                     {"width": 718, "height": 1047, "deviceScaleFactor": 1, "mobile": False})
+        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
+        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.setEmulatedMedia", {"media": ""})
+        self.assertEqual([c.is_displayed() for c in self.find(".controls, nav")], 3 * [False])
+        self.assertTrue(all(image.is_displayed() for image in self.find(".stage img")))
+        widest = self.browser.execute_script(
+            "return Math.max(...[...document.querySelectorAll('table, svg, .stage')].map(e => e.getBoundingClientRect().right))")
+        self.assertLessEqual(widest, 718)
 
 
 if __name__ == "__main__":
