@@ -15,7 +15,7 @@ import peers
 import plan
 from regression import baseline_of, compare_with_baseline
 from report import verdict_lines, write_report
-from runs import LEMMA, PROJECT, Jobs, Progress, commit, machine, program_digest, run
+from runs import LEMMA, PROJECT, Jobs, Progress, commit, libraries, machine, program_digest, run
 from summary import summarize
 
 
@@ -30,10 +30,16 @@ def parse_arguments():
     parser.add_argument("--size", help="of the images, WIDTHxHEIGHT")
     parser.add_argument("--reference-spp", type=int, help="samples a pixel of the references")
     parser.add_argument("--peers", action="store_true", help="Mitsuba 3 on the same scenes, with as many threads (./run installs it)")
+    parser.add_argument("--relative-to", default=plan.DEFAULT, metavar="CONFIGURATION",
+                        help="what efficiencies are ratios to, by its name in the report, for example \"lights power\"")
     parser.add_argument("--out", type=Path, default=Path("bench-results"), help="folder for all files")
     parser.add_argument("--baseline", type=Path, help="baseline to compare with, by ratio; exit code 3 if worse")
     parser.add_argument("--save-baseline", type=Path, help="file to keep this run in as a baseline")
-    return parser.parse_args()
+    arguments = parser.parse_args()
+    names = [c.name for c in plan.configurations(arguments.cross)] + ([peers.NAME] if arguments.peers else [])
+    if arguments.relative_to not in names:
+        parser.error(f"--relative-to {arguments.relative_to}: no such configuration; there are: {'; '.join(names)}")
+    return arguments
 
 
 def effort_of(arguments):
@@ -71,14 +77,15 @@ def main():
     # Read before hours of measuring: a wrong name is told at once.
     baseline = json.loads(arguments.baseline.read_text()) if arguments.baseline else None
     configurations = plan.configurations(arguments.cross)
-    environment = {"machine": machine(), "version": run([LEMMA, "--version"]).strip(), "commit": commit(),
-                   "program": program_digest(), "date": datetime.date.today().isoformat()}
+    environment = {"machine": machine(), "version": run([LEMMA, "--version"]).strip(), "libraries": libraries(),
+                   "commit": commit(), "program": program_digest(), "date": datetime.date.today().isoformat()}
     threads = environment["machine"]["threads"]
     jobs = Jobs(arguments.out / "jobs", [environment["machine"], environment["program"]])
     references, renderings = run_all(arguments, effort, configurations, jobs, threads)
     results = {
         **environment,
         "effort": dataclasses.asdict(effort),
+        "relative_to": arguments.relative_to,
         "references": references,
         "renderings": renderings,
         "parity": [measure.parity(jobs, scene, effort) for scene in arguments.scenes],
@@ -87,7 +94,7 @@ def main():
         "peers": [peers.agreement(jobs, scene, effort, threads, references[scene]) for scene in arguments.scenes]
         if arguments.peers else [],
     }
-    results["summary"] = summarize(renderings, effort)
+    results["summary"] = summarize(renderings, effort, arguments.relative_to)
     (arguments.out / "results.json").write_text(json.dumps(results))
     report = write_report(results, arguments.out)
     print(f"report: {report}")

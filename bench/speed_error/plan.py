@@ -16,6 +16,7 @@ SINGLES = {
     "rr": ("throughput", "fixed"),
     "brdf-sampling": ("truncated", "p6"),
 }
+DEFAULT = "default"  # name of the baseline
 BASELINE = tuple((name, values[0]) for name, values in DIMENSIONS.items())
 
 
@@ -29,7 +30,7 @@ class Configuration:
     def name(self):
         """What differs from the baseline."""
         others = [f"{name} {value}" for name, value in self.options if (name, value) not in BASELINE]
-        return ", ".join(others) or "default"
+        return ", ".join(others) or DEFAULT
 
     def arguments(self):
         return [word for name, value in self.options for word in (f"--{name}", value)]

@@ -69,8 +69,8 @@ def error_plot(configurations, key, unit, identity):
     return figure
 
 
-def efficiency_plot(configurations):
-    """Efficiency as a ratio to the first configuration's, with intervals."""
+def efficiency_plot(configurations, relative_to):
+    """Efficiency as a ratio to that of one of them, with intervals."""
     names = list(configurations)
     ratios = [configurations[name]["efficiency_ratio"] for name in names]
     figure, axes = pyplot.subplots(figsize=(7.2, 0.6 + 0.28 * len(names)))
@@ -81,7 +81,7 @@ def efficiency_plot(configurations):
     axes.set_yticks(range(len(names)), names)
     axes.invert_yaxis()
     axes.axvline(1, color="#444444", linewidth=0.8)
-    axes.set(xscale="log", xlabel="efficiency 1 / (relMSE x seconds), ratio to the default; bars: 95 %")
+    axes.set(xscale="log", xlabel=f"efficiency 1 / (relMSE x seconds), ratio to {relative_to}; bars: 95 %")
     return figure
 
 

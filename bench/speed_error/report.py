@@ -72,8 +72,8 @@ def errors_table(configurations):
     return table(head, rows)
 
 
-def efficiency_table(configurations, seconds):
-    head = ["configuration", "efficiency / default", "the same by CPU time", f"FLIP at {seconds:g} s", "mean against the reference"]
+def efficiency_table(configurations, seconds, relative_to):
+    head = ["configuration", f"efficiency / {relative_to}", "the same by CPU time", f"FLIP at {seconds:g} s", "mean against the reference"]
     rows = []
     for name, f in configurations.items():
         views = f["views"]
@@ -113,10 +113,10 @@ def scene_section(scene, results, folder):
     for key, unit in (("seconds", "seconds of rendering"), ("spp", "samples a pixel")):
         svg = plots.save(plots.error_plot(configurations, key, unit, f"{name}-{key}"), folder, f"{name}-{key}")
         parts.append(figure(svg, f"Error against {unit}. Bands: 95 % over {results['effort']['seeds']} seeds."))
-    svg = plots.save(plots.efficiency_plot(configurations), folder, f"{name}-efficiency")
+    svg = plots.save(plots.efficiency_plot(configurations, results["relative_to"]), folder, f"{name}-efficiency")
     text = verdict_text(configurations)
     parts += [figure(svg, f"Efficiency after {seconds:g} s."), f'<p class="verdict">{escape(text[0].upper() + text[1:])}.</p>',
-              efficiency_table(configurations, seconds), errors_table(configurations),
+              efficiency_table(configurations, seconds, results["relative_to"]), errors_table(configurations),
               '<p class="note">In brackets: 95 % confidence over seeds. By CPU time: of all threads, in which other work on the machine '
               "does not count. The mean against the reference: lemma compare --statistical on the first seed. Slope: of the root of "
               "relMSE over samples; independent samples have -0.5. A run that ends up to a fifth before a time counts there with its "
@@ -191,7 +191,7 @@ def write_report(results, folder):
 <link rel="icon" href="data:,"><title>Lemma: speed against error</title>
 <style>{(HERE / 'style.css').read_text()}</style></head><body>
 <h1>Lemma: speed against error</h1>
-<p>{escape(results['version'])}, commit {escape(results['commit'])}; {escape(machine['processor'])}, {machine['threads']} threads,
+<p>{escape(results['version'])}, commit {escape(results['commit'])}, {escape(', '.join(results['libraries']))}; {escape(machine['processor'])}, {machine['threads']} threads,
 {machine['memory_gb']} GB, {escape(machine['system'])}; {escape(results['date'])}. Each configuration rendered {effort['size']} pixels for {effort['seconds']:g} s
 with {effort['seeds']} seeds, in turns. relMSE is the mean of (I - R)<sup>2</sup> / (R<sup>2</sup> + 0.01).</p>
 <nav>{links}<a href="#accelerators">Accelerators</a>{'<a href="#peers">Other renderers</a>' if results['peers'] else ''}</nav>

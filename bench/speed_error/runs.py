@@ -87,5 +87,11 @@ def commit():
     return described.stdout.strip() or "unknown"
 
 
+def libraries():
+    """Files of the libraries that the speed depends on, whose names end with their versions."""
+    loaded = re.findall(r"=> (/\S*lib(?:embree|tbb)\S*)", run(["ldd", LEMMA]))
+    return sorted(Path(file).resolve().name for file in loaded)
+
+
 def program_digest():
     return hashlib.sha256(LEMMA.read_bytes()).hexdigest()[:16]

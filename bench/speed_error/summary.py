@@ -73,7 +73,7 @@ def verdict(configurations):
     """Whether the first configuration is the most efficient, or within 10 % of it, by processor time: "best", "within 10 %",
     "worse" if the interval of the best one's advantage lies above that, else "open"; and the best one with its advantage.
     Other renderers do not count."""
-    ours = {name: f["cpu_efficiency_ratio"] for name, f in configurations.items() if not f["peer"]}
+    ours = {name: f["advantage"] for name, f in configurations.items() if not f["peer"]}
     best, advantage = max(ours.items(), key=lambda item: item[1]["value"])
     if best == next(iter(ours)):
         word = "best"
@@ -84,19 +84,25 @@ def verdict(configurations):
     return {"verdict": word, "best": best, "advantage": advantage}
 
 
-def summarize(renderings, effort):
-    """For each scene its configurations in the order they were run; the first is the baseline."""
+def ratios(runs, baseline, time):
+    """Efficiency over that of a baseline; 1 for the baseline itself."""
+    if runs is baseline:
+        return estimates.Estimate(1, 1, 1).as_json()
+    return estimates.ratio(efficiencies(runs, time), efficiencies(baseline, time)).as_json()
+
+
+def summarize(renderings, effort, relative_to):
+    """For each scene its configurations in the order they were run, the first being the default; efficiencies also as ratios to
+    the configuration `relative_to`."""
     runs = {}
     for r in renderings:
         runs.setdefault(r["scene"], {}).setdefault(r["configuration"], []).append(r["figures"])
     peers = {r["configuration"] for r in renderings if r.get("peer")}
     scenes = {}
     for scene, by_configuration in runs.items():
-        baseline_name, baseline_runs = next(iter(by_configuration.items()))
-        baseline, cpu_baseline = efficiencies(baseline_runs), efficiencies(baseline_runs, "cpu_seconds")
+        default, baseline = next(iter(by_configuration.values())), by_configuration[relative_to]
         curves = {name: curve(found) for name, found in by_configuration.items()}
         spp = common_spp(curves.values())
-        same = estimates.Estimate(1, 1, 1)
         scenes[scene] = {
             name: {
                 "peer": name in peers,
@@ -104,11 +110,10 @@ def summarize(renderings, effort):
                 "at_spp": next(({"spp": spp, **p["relmse"]} for p in curves[name] if p["spp"] == spp), None),
                 "slope": fitted_slope(found),
                 "efficiency": estimates.geometric_mean(efficiencies(found)).as_json(),
-                "efficiency_ratio": (same if name == baseline_name else
-                                     estimates.ratio(efficiencies(found), baseline)).as_json(),
+                "efficiency_ratio": ratios(found, baseline, "seconds"),
                 "cpu_efficiency": estimates.geometric_mean(efficiencies(found, "cpu_seconds")).as_json(),
-                "cpu_efficiency_ratio": (same if name == baseline_name else
-                                         estimates.ratio(efficiencies(found, "cpu_seconds"), cpu_baseline)).as_json(),
+                "cpu_efficiency_ratio": ratios(found, baseline, "cpu_seconds"),
+                "advantage": ratios(found, default, "cpu_seconds"),
                 "at": {f"{t:g}": error_at_time(found, t) for t in sorted({*TIMES, effort.seconds})},
                 "to_target": time_to_target(found),
                 "samples_per_second": estimates.geometric_mean(

@@ -103,9 +103,14 @@ class SummaryTest(unittest.TestCase):
         effort = type("Effort", (), {"seconds": 2.0})
         runs = [self.rendering(name, seed, relmse, 2.0) for seed in (1, 2)
                 for name, relmse in (("default", 0.02), ("twice", 0.01))]
-        figures = summary.summarize(runs, effort)["s"]
+        figures = summary.summarize(runs, effort, "default")["s"]
         self.assertAlmostEqual(figures["default"]["efficiency"]["value"], 25)
         self.assertAlmostEqual(figures["twice"]["efficiency_ratio"]["value"], 2)
+        relative = summary.summarize(runs, effort, "twice")["s"]
+        self.assertAlmostEqual(relative["default"]["efficiency_ratio"]["value"], 0.5)
+        self.assertAlmostEqual(relative["default"]["cpu_efficiency_ratio"]["value"], 0.5)
+        self.assertEqual(summary.verdict(relative)["best"], "twice")  # whatever ratios are to
+        self.assertAlmostEqual(summary.verdict(relative)["advantage"]["value"], 2)
         self.assertAlmostEqual(figures["twice"]["slope"]["value"], -0.5)
         self.assertAlmostEqual(figures["default"]["at"]["1"]["value"], 0.04)
         self.assertIsNone(figures["default"]["at"]["10"])
@@ -118,7 +123,7 @@ class SummaryTest(unittest.TestCase):
     def test_errors_at_equal_samples(self):
         runs = [self.rendering(name, seed, relmse, 2.0) for seed in (1, 2) for name, relmse in (("default", 0.02), ("twice", 0.01))]
         runs[-1]["figures"]["error_curve"].pop()  # one run that ended before 8 samples
-        figures = summary.summarize(runs, type("Effort", (), {"seconds": 2.0}))["s"]
+        figures = summary.summarize(runs, type("Effort", (), {"seconds": 2.0}), "default")["s"]
         self.assertEqual([figures[name]["at_spp"]["spp"] for name in ("default", "twice")], [4, 4])
         self.assertAlmostEqual(figures["default"]["at_spp"]["value"] / figures["twice"]["at_spp"]["value"], 2)
 
@@ -127,7 +132,7 @@ class VerdictTest(unittest.TestCase):
     @staticmethod
     def verdict(low, value, high, peer=False):
         def figures(ratio, peer):
-            return {"peer": peer, "cpu_efficiency_ratio": dict(zip(("low", "value", "high"), ratio))}
+            return {"peer": peer, "advantage": dict(zip(("low", "value", "high"), ratio))}
 
         return summary.verdict({"default": figures((1, 1, 1), False), "other": figures((low, value, high), peer)})
 
