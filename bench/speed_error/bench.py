@@ -53,7 +53,6 @@ def run_all(arguments, effort, configurations, jobs, threads):
     references, renderings = {}, []
     others = [peers.NAME] if arguments.peers else []
     for scene in arguments.scenes:
-        print(f"reference of {scene}", file=sys.stderr, flush=True)
         references[scene] = measure.reference(jobs, scene, effort)
     count = len(configurations) + len(others)
     progress = Progress(len(arguments.scenes) * count * effort.seeds * effort.seconds)

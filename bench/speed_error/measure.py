@@ -5,11 +5,13 @@ import hashlib
 import json
 import re
 import sys
+from pathlib import Path
 
-from plan import REFERENCE, SCENES
+from plan import REFERENCE, REFERENCE_REPLICATES, REFERENCE_SEED, SCENES
 from runs import LEMMA, PROJECT, run
 
 COMPARISON_FAILED = 3  # exit code of lemma
+PART_SPP = 4096  # samples a pixel of a reference that are rendered at once
 
 
 def scene_path(name):
@@ -18,17 +20,58 @@ def scene_path(name):
 
 
 def reference(jobs, scene, effort):
-    """Renders the reference once: its image and its own error."""
-    key = ["reference", str(scene), effort.size, effort.reference_spp, REFERENCE]
+    """Renders the reference once, in parts of their own seeds, so that little is lost when it is interrupted: its image and its
+    own error."""
+    sizes = part_sizes(effort.reference_spp)
+    parts = []
+    for index, spp in enumerate(sizes):
+        print(f"reference of {scene}: part {index + 1} of {len(sizes)}", file=sys.stderr, flush=True)
+        parts.append(_reference_part(jobs, scene, effort, index, spp))
 
     def work(stem):
-        image = stem.with_suffix(".exr")
-        run([LEMMA, "render", scene_path(scene), "-q", "--size", effort.size, "--spp", effort.reference_spp, *REFERENCE,
-             "-o", image, "-o", stem.with_suffix(".png"), "--stats", stem.with_suffix(".stats")])
-        stats = json.loads(stem.with_suffix(".stats").read_text())
-        return {"scene": str(scene), "image": str(image), "picture": data_url(stem.with_suffix(".png")), "stats": stats}
+        image = Path(parts[0]["image"])
+        if len(parts) > 1:
+            image = stem.with_suffix(".exr")
+            run(mean_command([part["image"] for part in parts], image))
+        return {"scene": str(scene), "image": str(image), "picture": parts[0]["picture"],
+                "stats": mean_stats([part["stats"] for part in parts])}
 
-    return jobs.result(key, work)
+    return jobs.result(["reference", str(scene), effort.size, sizes, REFERENCE], work)
+
+
+def part_sizes(spp):
+    """Samples a pixel of each part: equal ones, so that the mean of the parts is that of all samples."""
+    return [spp // -(-spp // PART_SPP)] * -(-spp // PART_SPP)
+
+
+def _reference_part(jobs, scene, effort, index, spp):
+    seed = REFERENCE_SEED + index
+
+    def work(stem):
+        image, png, stats = (stem.with_suffix(ending) for ending in (".exr", ".png", ".stats"))
+        run([LEMMA, "render", scene_path(scene), "-q", "--size", effort.size, "--spp", spp, *REFERENCE, "--seed", seed,
+             "-o", image, "-o", png, "--stats", stats])
+        return {"image": str(image), "picture": data_url(png), "stats": json.loads(stats.read_text())}
+
+    return jobs.result(["part", str(scene), effort.size, spp, seed, REFERENCE], work)
+
+
+def mean_command(images, out):
+    """The command that averages images of equal numbers of samples: variances of the mean fall as one over their number, and
+    their degrees of freedom add up."""
+    count = len(images)
+    sums = [word for image in images[1:] for word in (image, "--add")]
+    factors = ",".join(map(str, [1 / count] * 3 + [1 / count**2] * 3))
+    freedom = count * (REFERENCE_REPLICATES - 1)
+    return ["oiiotool", images[0], *sums, "--mulc", factors, "--attrib:type=int", "lemma:variance-parts", freedom + 1,
+            "-o", out]
+
+
+def mean_stats(parts):
+    """The first part's, with the samples of all and the error of their mean."""
+    count, first = len(parts), parts[0]
+    errors = {key: sum(part["estimated_error"]["relmse"][key] for part in parts) / count**2 for key in ("value", "low", "high")}
+    return {**first, "spp": sum(part["spp"] for part in parts), "estimated_error": {"relmse": errors}}
 
 
 def data_url(png):

@@ -75,4 +75,5 @@ FULL = Effort("320x180", 60.0, 8, 65536, 1000000,
 SCENES = ("veach-mis", "cornell-box", "cornell-coplanar")  # folders of scenes/
 REFERENCE_SEED = 1000003
 # Not the baseline's light sampling, so that a bias of it would show; with variances of independent scramblings.
-REFERENCE = ["--lights", "power", "--replicates", "16", "--seed", str(REFERENCE_SEED)]
+REFERENCE_REPLICATES = 16
+REFERENCE = ["--lights", "power", "--replicates", str(REFERENCE_REPLICATES)]

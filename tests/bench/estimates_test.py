@@ -1,7 +1,12 @@
 """The benchmark's estimates, on synthetic runs whose truth is known."""
 
 import math
+import re
+import shutil
+import subprocess
+import tempfile
 import unittest
+from pathlib import Path
 
 try:
     import numpy
@@ -181,6 +186,37 @@ class RegressionTest(unittest.TestCase):
     def test_other_efforts_are_refused(self):
         with self.assertRaisesRegex(ValueError, "effort"):
             self.bad(self.results(1), self.results(1, size="9x9"))
+
+
+class ReferenceTest(unittest.TestCase):
+    def test_parts_are_equal_and_as_many_samples_as_asked(self):
+        for spp, parts in ((64, [64]), (4096, [4096]), (8192, 2 * [4096]), (65536, 16 * [4096]), (6000, 2 * [3000])):
+            self.assertEqual(measure.part_sizes(spp), parts)
+
+    def test_mean_of_parts(self):
+        def part(error):
+            return {"spp": 10, "seed": 7, "estimated_error": {"relmse": {"value": error, "low": error / 2, "high": error * 2}}}
+
+        stats = measure.mean_stats([part(0.01), part(0.03)])
+        self.assertEqual((stats["spp"], stats["seed"]), (20, 7))
+        self.assertAlmostEqual(stats["estimated_error"]["relmse"]["value"], 0.01)
+        self.assertAlmostEqual(stats["estimated_error"]["relmse"]["high"], 0.02)
+
+    def test_image_of_parts(self):
+        """Pixels of two files averaged, and a quarter of the sum of their variances, under the names that lemma gives."""
+        if not shutil.which("oiiotool"):
+            self.skipTest("no oiiotool: apt install openimageio-tools")
+        with tempfile.TemporaryDirectory(prefix="lemma-reference-") as folder:
+            images = [str(Path(folder) / f"{i}.exr") for i in range(3)]
+            for image, values in zip(images, ("1,2,3,0.4,0.8,4", "3,4,7,1.2,0.8,8")):
+                subprocess.run(["oiiotool", "--pattern", f"constant:color={values}", "2x2", "6", "--chnames",
+                                "R,G,B,variance.R,variance.G,variance.B", "-d", "float", "-o", image], check=True)
+            subprocess.run(list(map(str, measure.mean_command(images[:2], images[2]))), check=True)
+            told = subprocess.run(["oiiotool", "--info", "-v", "--dumpdata", images[2]], check=True, capture_output=True, text=True).stdout
+        self.assertRegex(told, r"lemma:variance-parts: 31\n")  # 2 x 15 degrees of freedom
+        self.assertIn("channel list: R, G, B, variance.R, variance.G, variance.B", told)
+        pixel = re.search(r"Pixel \(1, 1\): ([\d. ]+)", told).group(1)
+        numpy.testing.assert_allclose([float(x) for x in pixel.split()], [2, 3, 5, 0.4, 0.4, 3], rtol=1e-6)
 
 
 class HardCaseTableTest(unittest.TestCase):
