@@ -1,5 +1,8 @@
 #pragma once
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "src/core/triangle.h"
@@ -18,10 +21,13 @@ inline constexpr double kRoundoff = 0x1p-24;
 inline constexpr double kPlaneError = 8;
 
 /// Next float towards +infinity or -infinity, whichever `direction` points to; x itself when direction is 0.
+/// As std::nextafter, which is a call; beyond the range of float x stays.
 [[nodiscard]] inline float next_float_towards(float x, double direction) {
-  if (direction == 0) return x;
-  return std::nextafter(x,
-                        std::copysign(std::numeric_limits<float>::infinity(), static_cast<float>(direction)));
+  if (direction == 0 || !std::isfinite(x)) return x;
+  const bool up = direction > 0;
+  if (x == 0) return std::copysign(std::numeric_limits<float>::denorm_min(), up ? 1.0f : -1.0f);
+  const auto bits = std::bit_cast<std::uint32_t>(x);  // of sign and magnitude, in the order of magnitudes
+  return std::bit_cast<float>((x > 0) == up ? bits + 1 : bits - 1);
 }
 
 /// The origin for rays that leave the point p of a triangle to the side its unit normal n points to: the

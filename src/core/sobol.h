@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 namespace lemma {
@@ -37,15 +36,22 @@ namespace lemma {
   return index ^ (index >> 16);
 }
 
-/// Point `index` of Sobol's (0, 2)-sequence in an order and with a scrambling of its own for each set of
-/// keys, as two fractions of 2^32. Its first N points are stratified for every N; points of different keys
-/// are independent, so that pairs of dimensions may be padded. Source: Burley, Practical Hash-based Owen
-/// Scrambling, JCGT 9(4), 2020.
-[[nodiscard]] constexpr std::array<std::uint32_t, 2> scrambled_sobol(
-    std::uint32_t index, const std::array<std::uint32_t, 3>& keys) {
-  const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), keys[0]));
-  return {reverse_bits(permute_upwards(shuffled, keys[1])),
-          reverse_bits(permute_upwards(pascal_digits(shuffled), keys[2]))};
+// Point `index` of Sobol's (0, 2)-sequence in an order and with a scrambling of its own for each set of keys,
+// as two fractions of 2^32: the coordinates of shuffled_index(). The first N points are stratified for every
+// N; points of different keys are independent, so that pairs of dimensions may be padded. Source: Burley,
+// Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
+
+/// The place that the point with this index takes in the order of `key`.
+[[nodiscard]] constexpr std::uint32_t shuffled_index(std::uint32_t reversed_index, std::uint32_t key) {
+  return reverse_bits(permute_upwards(reversed_index, key));
+}
+
+[[nodiscard]] constexpr std::uint32_t scrambled_sobol_x(std::uint32_t shuffled, std::uint32_t key) {
+  return reverse_bits(permute_upwards(shuffled, key));
+}
+
+[[nodiscard]] constexpr std::uint32_t scrambled_sobol_y(std::uint32_t shuffled, std::uint32_t key) {
+  return reverse_bits(permute_upwards(pascal_digits(shuffled), key));
 }
 
 }  // namespace lemma

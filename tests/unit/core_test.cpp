@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -26,6 +28,15 @@ TEST(Philox, KnownAnswers) {
   EXPECT_EQ(philox4x32({f, f, f, f}, {f, f}), (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
   EXPECT_EQ(philox4x32({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}),
             (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+}
+
+// The first outputs of Vigna's splitmix64.c for the seed 1234567.
+TEST(SplitMix, KnownAnswers) {
+  std::uint64_t state = 1234567;
+  for (const std::uint64_t expected : {6457827717110365317u, 3203168211198807973u, 9817491932198370423u,
+                                       4593380528125082431u, 16408922859458223821u}) {
+    EXPECT_EQ(split_mix(state += kGoldenGamma), expected);
+  }
 }
 
 TEST(Sampler, DependsOnSeedPixelAndSampleAlone) {
@@ -106,6 +117,29 @@ TEST(Heuristics, WeightsOfBothTechniquesSumToOne) {
   EXPECT_EQ(power_heuristic({INFINITY}, {INFINITY}), 1);
   EXPECT_FLOAT_EQ(power_heuristic({3e30f}, {1e30f}), 0.9f);
   EXPECT_FLOAT_EQ(power_heuristic({3e-30f}, {1e-30f}), 0.9f);
+}
+
+TEST(OffsetOrigin, NextFloatIsTheLibrarys) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Sampler random(5, 0, 0);
+  const auto expect_same = [](float x) {
+    for (const double direction : {1e-300, 1.0, -1e-300, -1.0}) {
+      const float expected = std::nextafter(x, direction > 0 ? infinity : -infinity);
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(next_float_towards(x, direction)),
+                std::bit_cast<std::uint32_t>(expected))
+          << x << " " << direction;
+    }
+    EXPECT_EQ(next_float_towards(x, 0), x);
+  };
+  for (const float x :
+       {0.0f, -0.0f, 0x1p-149f, -0x1p-149f, 0x1p-126f, 1.0f, -1.0f, 0x1.fffffep127f, -0x1.fffffep127f}) {
+    expect_same(x);
+  }
+  for (int i = 0; i < 10000; ++i) {
+    const auto x = std::bit_cast<float>(random.next_bits());
+    if (std::isfinite(x)) expect_same(x);
+  }
+  EXPECT_EQ(next_float_towards(infinity, -1), infinity);
 }
 
 TEST(OffsetOrigin, LiesStrictlyOnTheSideOfTheNormal) {
