@@ -5,6 +5,7 @@ namespace {
 
 /// The report's 7.2: light is counted where a path happens to meet an emitter.
 struct BrdfSamples {
+  explicit BrdfSamples(const IntegratorOptions&) {}
   static constexpr bool kSamplesLights = false;
   template <class LightPdf>
   static float brdf_weight(PdfSolidAngle, const LightPdf&) {

@@ -6,6 +6,7 @@ namespace {
 /// The report's 7.1 and its Lemma 1: direct light by light samples alone; the path goes on by BRDF samples
 /// for indirect light, and emitters that it meets count 0, for they were counted before.
 struct LightSamples {
+  explicit LightSamples(const IntegratorOptions&) {}
   static constexpr bool kSamplesLights = true;
   static float light_weight(PdfSolidAngle, PdfSolidAngle) { return 1; }
   template <class LightPdf>

@@ -47,20 +47,21 @@ namespace lemma {
 /// One light sample at a vertex: throughput f cos L / pdf times the Technique's weight (path.h); 0 if the
 /// light is not seen.
 template <Model M, class Technique, class Observer>
-[[nodiscard]] Rgb light_sample(const World& world, const Vertex<M>& vertex, const LightQuery& query,
-                               const Rgb& throughput, Tracer& tracer, Sampler& random, Observer& observer) {
+[[nodiscard]] Rgb light_sample(const World& world, const Technique& technique, const Vertex<M>& vertex,
+                               const LightQuery& query, const Rgb& throughput, Tracer& tracer,
+                               Sampler& random, Observer& observer) {
   const std::optional<LightSample> light = world.lights.sample(query, random);
   const auto lost = [&](LightFate fate) {
     observer.light(vertex, light, fate, 0.0f, Rgb{});
     return Rgb{};
   };
   if (!light) return lost(LightFate::none);
-  const Rgb f_cos = vertex.eval_cos(light->wi);
+  const auto [f_cos, pdf_brdf] = vertex.at(light->wi);
   if (is_black(f_cos)) return lost(LightFate::below);
   const Ray to_light{vertex.origin(), light->to_light, 0, light->visible_until};
   if (M.overlays && is_covered(world.scene, to_light, light->emitter)) return lost(LightFate::covered);
   if (tracer.occluded(to_light)) return lost(LightFate::hidden);
-  const float weight = Technique::light_weight(light->pdf, vertex.pdf(light->wi));
+  const float weight = technique.light_weight(light->pdf, pdf_brdf);
   const Rgb contribution = throughput * (f_cos * light->radiance * (weight / light->pdf.value));
   observer.light(vertex, light, LightFate::seen, weight, contribution);
   return contribution;

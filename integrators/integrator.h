@@ -65,22 +65,28 @@ using IntegratorFactory = std::unique_ptr<const Integrator> (*)(const Model&, co
 [[nodiscard]] std::span<const Named<IntegratorFactory>> integrators();
 
 /// The integrator Estimator<M> for the parts of the model that a scene needs: they are constants of its code.
-/// Decides one part after the other, from the last on: overlays, glass, textures, smooth normals, specular.
-/// Scenes with glass or textures get the specular lobe too, needed or not, which halves their variants.
+/// Every part would double the variants; so textures and glass are one, which has the specular lobe too, and
+/// what of it the scene lacks is found out at each vertex. 12 variants are left.
+/// Decides one after the other, from the last on: overlays, textures or glass, smooth normals, specular.
 template <template <Model> class Estimator, bool... Decided>
-[[nodiscard]] std::unique_ptr<const Integrator> for_model(const Model& model,
+[[nodiscard]] std::unique_ptr<const Integrator> for_model(const Model& needed,
                                                           const IntegratorOptions& options) {
-  constexpr std::size_t parts = 5;
-  constexpr std::array<bool, parts> decided{Decided...};  // the last ones of Model, in its order
+  constexpr std::size_t parts = 4;
+  constexpr std::array<bool, parts> decided{Decided...};  // the last ones, in the order of Model
   if constexpr (sizeof...(Decided) == parts) {
-    return std::make_unique<Estimator<Model{Decided...}>>(options);
-  } else if constexpr (sizeof...(Decided) + 1 == parts && (decided[1] || decided[2])) {
-    return for_model<Estimator, true, Decided...>(model, options);
+    constexpr Model model{.specular = decided[0],
+                          .smooth_normals = decided[1],
+                          .textures = decided[2],
+                          .glass = decided[2],
+                          .overlays = decided[3]};
+    return std::make_unique<Estimator<model>>(options);
+  } else if constexpr (sizeof...(Decided) + 1 == parts && decided[1]) {
+    return for_model<Estimator, true, Decided...>(needed, options);
   } else {
-    const std::array<bool, parts> needed{model.overlays, model.glass, model.textures, model.smooth_normals,
-                                         model.specular};
-    return needed[sizeof...(Decided)] ? for_model<Estimator, true, Decided...>(model, options)
-                                      : for_model<Estimator, false, Decided...>(model, options);
+    const std::array<bool, parts> parts_needed{needed.overlays, needed.textures || needed.glass,
+                                               needed.smooth_normals, needed.specular};
+    return parts_needed[sizeof...(Decided)] ? for_model<Estimator, true, Decided...>(needed, options)
+                                            : for_model<Estimator, false, Decided...>(needed, options);
   }
 }
 

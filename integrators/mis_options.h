@@ -3,6 +3,7 @@
 #include <span>
 
 #include "src/core/named.h"
+#include "src/core/pdf.h"
 
 namespace lemma {
 
@@ -13,6 +14,11 @@ enum class Heuristic {
 };
 
 [[nodiscard]] std::span<const Named<Heuristic>> heuristics();
+
+/// The weight of a sample of density a where the other technique has density b.
+[[nodiscard]] inline float mis_weight(Heuristic heuristic, PdfSolidAngle a, PdfSolidAngle b) {
+  return heuristic == Heuristic::balance ? balance_heuristic(a, b) : power_heuristic(a, b);
+}
 
 /// Which samples find emitted light. One kind alone has weight 1: what each is good for shows beside `both`,
 /// as in Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, figure 9.2.

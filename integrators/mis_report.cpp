@@ -2,6 +2,7 @@
 
 #include "integrators/emission.h"
 #include "integrators/observed.h"
+#include "integrators/path_end.h"
 
 namespace lemma {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 /// Its weights summed to more than 1 where a direction meets two lights. Here the light technique is: choose
 /// a point on an emitter; it counts only if no other emitter lies before it, whatever else does. The density
 /// of a direction is then that of the first emitter along it, through all that is in between.
-template <Model M, PairWeight Weight>
-class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M, Weight>> {
+template <Model M>
+class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M>> {
  public:
   explicit ReportIntegrator(const IntegratorOptions& options) : options_(options) {}
 
@@ -35,11 +36,7 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M, Wei
       if (!options_.emitters_reflect) return radiance;
     }
     for (int depth = 1; hit; ++depth) {
-      if (depth > options_.max_depth) {
-        ++tracer.counts.paths_cut;
-        observer.end(PathEnd::cut);
-        break;
-      }
+      if (is_cut(options_, depth, tracer, observer)) break;
       const Vertex<M> vertex(world.scene, ray, *hit);
       observer.surface(*hit, vertex, throughput);
       const LightQuery query = world.lights.query(vertex.origin(), vertex.shading_normal());
@@ -57,10 +54,7 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M, Wei
       const Branch& next = with_light ? light : brdf;
       observer.choice(with_light, (with_light ? a : b) / (a + b));
       throughput = next.throughput * ((a + b) / (with_light ? a : b));
-      const float q = survival(options_.roulette, depth, throughput);
-      const bool alive = survives(q, throughput, random);
-      observer.roulette(q, alive, throughput);
-      if (!alive) break;
+      if (!survives_roulette(options_, depth, throughput, random, observer)) break;
       ray = next.ray;
       hit = next.hit;
     }
@@ -104,7 +98,7 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M, Wei
       return Branch{};
     };
     if (!light) return lost(LightFate::none);
-    const Rgb f_cos = vertex.eval_cos(light->wi);
+    const auto [f_cos, pdf_brdf] = vertex.at(light->wi);
     if (is_black(f_cos)) return lost(LightFate::below);
     const Ray to_light{vertex.origin(), light->to_light, 0, light->visible_until};
     if (M.overlays && is_covered(world.scene, to_light, light->emitter)) return lost(LightFate::covered);
@@ -117,7 +111,7 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M, Wei
       const auto before = first_emitter(world.scene, tracer, {ray.origin, ray.direction, 0, until}, hit);
       if (before && before->t < until) return lost(LightFate::covered);
     }
-    const float weight = Weight(light->pdf, vertex.pdf(light->wi));
+    const float weight = mis_weight(options_.heuristic, light->pdf, pdf_brdf);
     const Rgb reflected = throughput * (f_cos * (weight / light->pdf.value));
     Branch branch{.ray = ray};
     if (!hidden) branch.contribution = reflected * light->radiance;
@@ -141,7 +135,8 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M, Wei
     const std::optional<Hit> hit = seen(world.scene, ray, tracer.closest_hit(ray));
     if (!hit) return {};
     const auto first = first_emitter(world.scene, tracer, ray, hit);
-    const float weight = Weight(next->pdf, first ? light_pdf(world, query, *first) : PdfSolidAngle{0});
+    const PdfSolidAngle pdf_light = first ? light_pdf(world, query, *first) : PdfSolidAngle{0};
+    const float weight = mis_weight(options_.heuristic, next->pdf, pdf_light);
     const Rgb reflected = throughput * next->weight * weight;
     Branch branch{.ray = ray, .hit = *hit};
     const Emitter* emitter = emitter_at(world.scene, *hit);
@@ -157,16 +152,10 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M, Wei
   IntegratorOptions options_;
 };
 
-template <Model M>
-using BalanceIntegrator = ReportIntegrator<M, balance_heuristic>;
-template <Model M>
-using PowerIntegrator = ReportIntegrator<M, power_heuristic>;
-
 }  // namespace
 
 std::unique_ptr<const Integrator> make_mis_report(const Model& model, const IntegratorOptions& options) {
-  return options.heuristic == Heuristic::balance ? for_model<BalanceIntegrator>(model, options)
-                                                 : for_model<PowerIntegrator>(model, options);
+  return for_model<ReportIntegrator>(model, options);
 }
 
 }  // namespace lemma

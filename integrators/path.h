@@ -2,13 +2,15 @@
 
 #include "integrators/emission.h"
 #include "integrators/observed.h"
+#include "integrators/path_end.h"
 #include "integrators/vertex.h"
 
 namespace lemma {
 
 /// A path from the camera that goes on by BRDF samples. Emitted light is found in two ways, by the direction
 /// the path goes on with and by a light sample at each vertex; a Technique says with which weights they
-/// count. The estimate is unbiased if the two weights of every direction sum to 1. A Technique has
+/// count. The estimate is unbiased if the two weights of every direction sum to 1. A Technique is made from
+/// IntegratorOptions and has
 ///   kSamplesLights                   whether light samples are taken at all
 ///   light_weight(light, brdf)        of a light sample, given both densities of its direction
 ///   brdf_weight(brdf, light)         of an emitter met at depth > 1; light() gives the density of light
@@ -16,7 +18,7 @@ namespace lemma {
 template <Model M, class Technique>
 class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Technique>> {
  public:
-  explicit PathIntegrator(const IntegratorOptions& options) : options_(options) {}
+  explicit PathIntegrator(const IntegratorOptions& options) : options_(options), technique_(options) {}
 
   template <class Observer>
   Rgb follow(const Ray& camera_ray, const std::optional<Hit>& first, const World& world, Tracer& tracer,
@@ -33,33 +35,26 @@ class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Techniq
         const bool only_path = depth == 1 || (M.glass && std::isinf(pdf_brdf.value));
         const float weight =
             only_path ? 1.0f
-                      : Technique::brdf_weight(pdf_brdf, [&] { return light_pdf(world, query, *hit); });
+                      : technique_.brdf_weight(pdf_brdf, [&] { return light_pdf(world, query, *hit); });
         const Rgb emission = emitted(*emitter, ray.origin), contribution = throughput * emission * weight;
         observer.emitter(*hit, emission, pdf_brdf, weight, contribution);
         radiance += contribution;
         if (!options_.emitters_reflect) break;
       }
-      if (depth > options_.max_depth) {
-        ++tracer.counts.paths_cut;
-        observer.end(PathEnd::cut);
-        break;
-      }
+      if (is_cut(options_, depth, tracer, observer)) break;
       const Vertex<M> vertex(world.scene, ray, *hit);
       observer.surface(*hit, vertex, throughput);
       if constexpr (Technique::kSamplesLights) {
         if (!vertex.is_glass()) {
           query = world.lights.query(vertex.origin(), vertex.shading_normal());
-          radiance += light_sample<M, Technique>(world, vertex, query, throughput, tracer, random, observer);
+          radiance += light_sample<M>(world, technique_, vertex, query, throughput, tracer, random, observer);
         }
       }
       const std::optional<ScatterSample> next = vertex.sample(random);
       observer.scatter(next);
       if (!next) break;
       throughput *= next->weight;
-      const float q = survival(options_.roulette, depth, throughput);
-      const bool alive = survives(q, throughput, random);
-      observer.roulette(q, alive, throughput);
-      if (!alive) break;
+      if (!survives_roulette(options_, depth, throughput, random, observer)) break;
       ray = {next->origin, next->wi};
       pdf_brdf = next->pdf;
       hit = tracer.closest_hit(ray);
@@ -70,6 +65,7 @@ class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Techniq
 
  private:
   IntegratorOptions options_;
+  Technique technique_;
 };
 
 }  // namespace lemma

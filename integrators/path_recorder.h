@@ -47,8 +47,9 @@ class PathRecorder {
              const Rgb& contribution) {
     LightEvent event{.fate = fate, .weight = weight, .contribution = contribution};
     if (sample) {
-      event.f_cos = vertex.eval_cos(sample->wi);
-      event.densities.brdf = vertex.pdf(sample->wi).value;
+      const auto [f_cos, pdf] = vertex.at(sample->wi);
+      event.f_cos = f_cos;
+      event.densities.brdf = pdf.value;
     }
     add_light(sample, std::move(event));
   }

@@ -18,6 +18,12 @@ struct ScatterSample {
   Rgb weight;         // f cos(theta_i) / pdf
 };
 
+/// How much light a vertex scatters from a direction.
+struct ScatterValue {
+  Rgb f_cos;          // f(wo, wi) cos(theta_i)
+  PdfSolidAngle pdf;  // with which sample() returns wi
+};
+
 /// A point of a path where light is scattered: the surface as seen along a ray. Both normals are turned to
 /// the side the ray comes from; directions must lie above the horizons of both, else the BRDF is 0.
 template <Model M>
@@ -46,20 +52,18 @@ class Vertex {
 
   /// Whether light goes on in single directions only, which no light sample finds.
   [[nodiscard]] bool is_glass() const {
-    if constexpr (M.glass) return scene_.glass[material_index(scene_, hit_)].ior != 1;
+    if constexpr (M.glass) {
+      return !scene_.glass.empty() && scene_.glass[material_index(scene_, hit_)].ior != 1;
+    }
     return false;
   }
 
-  /// f(wo, wi) cos(theta_i) for a unit direction in world space; 0 at glass, where it is a Dirac function.
-  [[nodiscard]] Rgb eval_cos(const Vec3& wi) const {
+  /// Of a unit direction in world space; 0 at glass, where it is a Dirac function.
+  [[nodiscard]] ScatterValue at(const Vec3& wi) const {
     if (is_glass() || !above_surface(wi)) return {};
     const Vec3 local = frame_.to_local(wi);
-    return brdf_.eval(wo_, local) * std::max(local.z, 0.0f);
-  }
-
-  /// Density with which sample() returns wi.
-  [[nodiscard]] PdfSolidAngle pdf(const Vec3& wi) const {
-    return !is_glass() && above_surface(wi) ? brdf_.pdf(wo_, frame_.to_local(wi)) : PdfSolidAngle{0};
+    const auto [f, pdf] = brdf_.at(wo_, local);
+    return {f * std::max(local.z, 0.0f), pdf};
   }
 
   /// Draws a direction by the BRDF; nothing if it absorbs.
@@ -84,6 +88,7 @@ class Vertex {
   static OwnMaterial find_material(const Scene& scene, const Hit& hit) {
     const std::uint32_t index = material_index(scene, hit);
     if constexpr (M.textures) {
+      if (scene.texture_of.empty()) return scene.materials[index];
       const auto& [texture, tint] = scene.texture_of[index];
       if (texture == kNoTexture) return scene.materials[index];
       const auto& [uv0, uv1, uv2] = scene.texcoords[hit.triangle];

@@ -38,7 +38,4 @@ using PdfSolidAngle = Pdf<struct PerSolidAngle>;  // [sr^-1]
   return 1 / (1 + ratio * ratio);
 }
 
-/// One of the heuristics.
-using PairWeight = float (*)(PdfSolidAngle, PdfSolidAngle);
-
 }  // namespace lemma

@@ -9,9 +9,13 @@
 namespace lemma {
 
 /// (1 - x)^n for x = 1 - cos(alpha): the lobe cos^n(alpha) of 90 degrees and less, 0 beyond. By log1p,
-/// because pow(cos(alpha), n) loses all digits at n = 1e5.
+/// because pow(cos(alpha), n) loses all digits at n = 1e5. Most directions are far off a narrow lobe: since
+/// log1p(-x) <= -x, the exponential is below that of -n x, and rounds to 0 where that is below exp(-103.98),
+/// half of the least float.
 [[nodiscard]] inline float cos_power(float one_minus_cos, float n) {
-  return one_minus_cos < 1 ? std::exp(n * std::log1p(-one_minus_cos)) : 0;
+  constexpr float vanishes = 104;
+  if (!(one_minus_cos < 1) || n * one_minus_cos > vanishes) return 0;
+  return std::exp(n * std::log1p(-one_minus_cos));
 }
 
 /// 1 - cos(alpha) with density (n + 1) / (2 pi) cos(alpha)^n over the hemisphere: 1 - (1 - u)^(1 / (n + 1)),

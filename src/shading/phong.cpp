@@ -75,18 +75,13 @@ float largest_albedo(const Material& m) {
 }
 
 template <bool Specular>
-Rgb Phong<Specular>::eval(const Vec3& wo, const Vec3& wi) const {
+BrdfValue Phong<Specular>::at(const Vec3& wo, const Vec3& wi) const {
   if (wo.z <= 0 || wi.z <= 0) return {};
-  if (is_lambert()) return material_.kd * kInvPi;
-  return with_lobe(material_, wo, [&](const auto& lobe) { return value(material_, lobe.cos_n(wi)); });
-}
-
-template <bool Specular>
-PdfSolidAngle Phong<Specular>::pdf(const Vec3& wo, const Vec3& wi) const {
-  if (wo.z <= 0 || wi.z <= 0) return {0};
-  if (is_lambert()) return {wi.z * kInvPi};
-  return {with_lobe(material_, wo,
-                    [&](const auto& lobe) { return mixture_pdf(material_, lobe, wi, lobe.cos_n(wi)); })};
+  if (is_lambert()) return {material_.kd * kInvPi, {wi.z * kInvPi}};
+  return with_lobe(material_, wo, [&](const auto& lobe) {
+    const float cos_n = lobe.cos_n(wi);
+    return BrdfValue{value(material_, cos_n), {mixture_pdf(material_, lobe, wi, cos_n)}};
+  });
 }
 
 template <bool Specular>

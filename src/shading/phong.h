@@ -40,6 +40,12 @@ struct BrdfSample {
   Rgb weight;         // f cos(theta_i) / pdf
 };
 
+/// What a BRDF says of a pair of directions.
+struct BrdfValue {
+  Rgb f;              // [sr^-1], without the cosine
+  PdfSolidAngle pdf;  // with which sample() returns wi
+};
+
 /// A Lambert term and a specular lobe, in a local frame whose z axis is the shading normal:
 ///   f = kd / pi + ks (n + 1) / (2 pi) max(0, cos alpha)^n
 /// with alpha between wi and the mirror direction of wo (the report's eq. (3)), or the other factor and angle
@@ -50,11 +56,10 @@ class Phong {
  public:
   explicit Phong(const Material& material) : material_(material) {}
 
-  /// f(wo, wi) [sr^-1], without the cosine.
-  [[nodiscard]] Rgb eval(const Vec3& wo, const Vec3& wi) const;
-
-  /// Density with which sample() returns wi.
-  [[nodiscard]] PdfSolidAngle pdf(const Vec3& wo, const Vec3& wi) const;
+  /// Value and density share the lobe's power: who needs both asks once.
+  [[nodiscard]] BrdfValue at(const Vec3& wo, const Vec3& wi) const;
+  [[nodiscard]] Rgb eval(const Vec3& wo, const Vec3& wi) const { return at(wo, wi).f; }
+  [[nodiscard]] PdfSolidAngle pdf(const Vec3& wo, const Vec3& wi) const { return at(wo, wi).pdf; }
 
   /// The report's p6: diffuse or specular by kd : ks, then the cosine-weighted hemisphere or the lobe, of
   /// which LobeSampling::truncated draws only the part above the surface.

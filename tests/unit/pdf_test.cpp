@@ -41,7 +41,7 @@ static_assert(std::same_as<decltype(BrdfSample::pdf), PdfSolidAngle>);
 /// Of two techniques the weights of a direction sum to 1, whatever the densities.
 TEST(Heuristics, WeightsOfADirectionSumToOne) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  for (const PairWeight weight : {balance_heuristic, power_heuristic}) {
+  for (const auto weight : {balance_heuristic, power_heuristic}) {
     for (const float a : {1e-30f, 1e-3f, 1.0f, 7.0f, 1e30f}) {
       for (const float b : {1e-30f, 1e-3f, 1.0f, 7.0f, 1e30f}) {
         EXPECT_NEAR(weight({a}, {b}) + weight({b}, {a}), 1, 1e-6) << a << " " << b;
