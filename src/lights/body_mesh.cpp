@@ -34,7 +34,10 @@ std::pair<Members, Members> halves(Members members, std::span<const Emitter> emi
 }  // namespace
 
 BodyMesh::BodyMesh(std::span<const Emitter> all_emitters, const WholeLight& light)
-    : emitters(all_emitters), centre(light.centre), radius(light.radius) {
+    : emitters(all_emitters),
+      walk(ConvexWalk::find(all_emitters, light)),
+      centre(light.centre),
+      radius(light.radius) {
   std::vector<std::uint32_t> members = light.emitters;
   root = build(members);
 }
@@ -84,6 +87,9 @@ std::uint32_t BodyMesh::add_leaf(std::span<const std::uint32_t> members) {
 }
 
 std::optional<BodyMesh::Point> BodyMesh::first_hit(const Vec3& x, const Vec3d& w) const {
+  if (walk) {
+    if (const auto point = walk->enter(emitters, x, w)) return point;
+  }
   static const BodyTrace fastest = body_traces().front();
   return fastest.first_hit(*this, x, w);
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "src/lights/convex_walk.h"
 #include "src/lights/emitter.h"
 #include "src/lights/whole_light.h"
 
@@ -32,10 +33,7 @@ struct BodyMesh {
 
   BodyMesh(std::span<const Emitter> all_emitters, const WholeLight& light);
 
-  struct Point {
-    std::uint32_t emitter;
-    Vec3d y;
-  };
+  using Point = BodyPoint;
 
   /// The first emitter of the light that a ray meets.
   /// @param x  outside of the light's sphere
@@ -43,6 +41,7 @@ struct BodyMesh {
   [[nodiscard]] std::optional<Point> first_hit(const Vec3& x, const Vec3d& w) const;
 
   std::span<const Emitter> emitters;
+  std::optional<ConvexWalk> walk;  // of a convex body; finds most points without the hierarchy
   Vec3d centre;
   double radius;
   std::vector<Inner> inners;

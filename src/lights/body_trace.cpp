@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "src/core/instruction_sets.h"
+#include "src/lights/face_crossing.h"
 
 // This file is compiled once for every instruction set, by including itself.
 #undef HWY_TARGET_INCLUDE
@@ -150,14 +151,9 @@ class Search {
   /// Whether the ray crosses the triangle, by the signs of the volumes that it spans with the edges; and
   /// whether nearer than what was found before. Of two at the same distance the one of lower index counts.
   void decide(std::uint32_t emitter) {
-    const Triangle& t = mesh_.emitters[emitter].shape;
-    const Vec3d a = Vec3d(t.v0) - start_, b = Vec3d(t.v1) - start_, c = Vec3d(t.v2) - start_;
-    const double at_a = lemma::dot(w_, lemma::cross(b, c)), at_b = lemma::dot(w_, lemma::cross(c, a)),
-                 at_c = lemma::dot(w_, lemma::cross(a, b));
-    if (at_a > 0 || at_b > 0 || at_c > 0) return;
-    const double sum = at_a + at_b + at_c;
-    if (sum == 0) return;
-    const Vec3d y = (a * at_a + b * at_b + c * at_c) * (1 / sum);
+    const FaceCrossing crossing(mesh_.emitters[emitter].shape, start_, w_);
+    if (!crossing.passes_to_back() || crossing.sum() == 0) return;
+    const Vec3d y = crossing.point();
     const double distance = lemma::dot(y, w_);
     if (distance > nearest_ || (distance == nearest_ && emitter >= found_.emitter)) return;
     nearest_ = distance;

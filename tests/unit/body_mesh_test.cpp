@@ -28,6 +28,14 @@ std::optional<std::uint32_t> nearest(const std::vector<Emitter>& emitters, const
   return found;
 }
 
+/// Whether both ways to find a point, the walk into a convex body and the hierarchy, say the same.
+void expect_same_point(const std::optional<BodyMesh::Point>& a, const std::optional<BodyMesh::Point>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (!a) return;
+  EXPECT_EQ(a->emitter, b->emitter);
+  EXPECT_EQ(a->y, b->y);
+}
+
 /// Round bodies of few and many triangles, one of them dented, from close by and from far away: every
 /// instruction set finds what looking at all triangles finds.
 TEST(BodyMesh, FindsTheNearestEmitterOnEveryInstructionSet) {
@@ -45,7 +53,8 @@ TEST(BodyMesh, FindsTheNearestEmitterOnEveryInstructionSet) {
       ASSERT_EQ(lights.size(), rings == 3 ? 0u : 1u);
       if (lights.empty()) continue;
       const BodyMesh body(emitters, lights.front());
-      int hits = 0;
+      ASSERT_EQ(body.walk.has_value(), rings != 20) << "the dented one is not convex";
+      int hits = 0, walked = 0;
       for (std::uint32_t i = 0; i < 400; ++i) {
         Sampler random(111, i, 0);
         const auto distance = static_cast<float>(1.02 * body.radius * std::pow(10.0, 5 * random.next()));
@@ -54,13 +63,19 @@ TEST(BodyMesh, FindsTheNearestEmitterOnEveryInstructionSet) {
         const auto found = set.first_hit(body, x, w);
         const auto expected = nearest(emitters, x, w);
         ASSERT_EQ(found.has_value(), expected.has_value()) << i;
+        expect_same_point(body.first_hit(x, w), found);
         if (!found) continue;
         ASSERT_EQ(found->emitter, *expected) << i;
         // Coordinates up to 10^5 in double, and some operations on them.
         ASSERT_LT(length(cross(found->y - Vec3d(x), w)), 1e-14 * (distance + 200));
         ++hits;
+        walked += body.walk && body.walk->enter(emitters, x, w) ? 1 : 0;
       }
       EXPECT_GT(hits, 150);
+      // The walk may give up, at the silhouette; if it did so often it would be of no use.
+      if (body.walk) {
+        EXPECT_GT(walked, 0.9 * hits);
+      }
     }
   }
 }
