@@ -1,12 +1,12 @@
 #include "tests/support/seen_triangles.h"
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_dec_float.hpp>
 
 namespace lemma::test {
 namespace {
 
-using Real = boost::multiprecision::cpp_bin_float_50;
+using Real = boost::multiprecision::cpp_dec_float_50;
 
 struct Exact {
   Real x, y, z;
