@@ -110,7 +110,7 @@ bool LightTree::is_light(const Node& node, const Vec3& x) const {
   if (node.children == 0) return true;
   if (node.whole == kNone) return false;
   const WholeLight& whole = wholes_[node.whole].body;
-  return SphereCone(whole.centre, whole.radius, x).can_be_sampled();
+  return SphereCone::can_be_sampled(whole.centre, whole.radius, x);
 }
 
 /// Luminance x solid angle x cosine at the surface: of a light nearly exactly, of other nodes an estimate. 0

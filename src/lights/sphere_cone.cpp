@@ -6,15 +6,15 @@ namespace lemma {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kLargestSin2 = 0.98;  // x at 1.01 radii or more
 
 }  // namespace
 
 SphereCone::SphereCone(const Vec3d& centre, double radius, const Vec3& x) {
   const Vec3d to_centre = centre - Vec3d(x);
-  const double distance2 = dot(to_centre, to_centre), sin2 = radius * radius / distance2;
-  can_be_sampled_ = sin2 < kLargestSin2;
+  const double distance2 = dot(to_centre, to_centre);
+  can_be_sampled_ = can_be_sampled(radius, distance2);
   if (!can_be_sampled_) return;
+  const double sin2 = radius * radius / distance2;
   axis_ = to_centre * (1 / std::sqrt(distance2));
   one_minus_cos_ = sin2 / (1 + std::sqrt(1 - sin2));
 }

@@ -9,7 +9,12 @@ class SphereCone {
  public:
   SphereCone(const Vec3d& centre, double radius, const Vec3& x);
 
-  /// Whether x lies outside the sphere by so much that a polyhedron within it still fills most of the cone.
+  /// Whether x lies outside the sphere by so much that a polyhedron within it still fills most of the cone:
+  /// at 1.01 radii or more.
+  [[nodiscard]] static bool can_be_sampled(const Vec3d& centre, double radius, const Vec3& x) {
+    const Vec3d to_centre = centre - Vec3d(x);
+    return can_be_sampled(radius, dot(to_centre, to_centre));
+  }
   [[nodiscard]] bool can_be_sampled() const { return can_be_sampled_; }
 
   /// [sr]
@@ -23,6 +28,11 @@ class SphereCone {
   [[nodiscard]] double mean_cosine(const Vec3d& n) const;
 
  private:
+  static constexpr double kLargestSin2 = 0.98;
+  static bool can_be_sampled(double radius, double distance2) {
+    return radius * radius < kLargestSin2 * distance2;
+  }
+
   Vec3d axis_;
   double one_minus_cos_ = 0;  // of the half angle: 1 - cos = sin^2 / (1 + cos), which does not cancel
   bool can_be_sampled_ = false;
