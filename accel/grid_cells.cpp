@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMaxCells = 1u << 28;  // a cell's index fits an int
 
-constexpr std::size_t kCrowd = 100;    // triangles of a cell that are worth a grid of their own
+constexpr std::size_t kCrowd = 200;    // triangles of a cell that are worth a grid of their own
 constexpr double kChildDensity = 0.5;  // its cells a triangle
 constexpr double kMaxCopies = 8;       // its references a triangle; more: they do not come apart
 constexpr int kMaxDepth = 3;           // grids within grids
@@ -86,12 +86,14 @@ struct CostModel {
   }
 };
 
-/// Cells of about 16 slices an axis, one look for AVX-512, in which grids of their own divide crowded cells,
-/// or one finer grid for all, where rays soon meet fine surfaces: what the model finds cheaper.
+/// For a small scene 2 cells a triangle, up to the number beyond which more of them measured no better. For
+/// others cells of about 16 slices an axis, one look for AVX-512, in which grids of their own divide crowded
+/// cells, or one finer grid for all, where rays soon meet fine surfaces: what the model finds cheaper.
 double cheaper_target(std::span<const Triangle> triangles, const Vec3d& extent) {
   constexpr double kCoarse = 3000;  // cells
+  constexpr double kSmall = 16000;  // cells of one grid for a small scene
   const double fine = kChildDensity * static_cast<double>(triangles.size());
-  if (fine <= kCoarse) return std::min(kCoarse, 2 * static_cast<double>(triangles.size()));
+  if (fine <= kSmall) return std::min(kSmall, 4 * fine);
   const auto cell_of = [&](double target) {
     const auto counts = cell_counts(extent, target);
     return std::max({extent.x / counts[0], extent.y / counts[1], extent.z / counts[2]});
@@ -399,6 +401,8 @@ GridCells build_grid_cells(std::span<const Triangle> triangles, const GridResolu
   std::vector<std::uint32_t> all(triangles.size());
   std::iota(all.begin(), all.end(), 0u);
   grid.trusted_distance = kTrustedSizes * reach;
+  grid.lo = lo;
+  grid.hi = hi;
   append(build({triangles, all, lo - Vec3d(pad), hi + Vec3d(pad), reach},
                target_cells(resolution, triangles, hi - lo), 0),
          grid);

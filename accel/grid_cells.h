@@ -53,6 +53,7 @@ struct GridCells {
   /// Between the origins of rays and the scene's furthest corner, in coordinates: hits of rays that start so
   /// far away err by no more than the cells' margin.
   double trusted_distance = 0;
+  Vec3d lo{0}, hi{0};  // the scene
 
   [[nodiscard]] bool is_occupied(const GridLevel& level, std::uint32_t cell) const {
     return (occupied[level.words + cell / 32].bits >> cell % 32 & 1) != 0;

@@ -9,16 +9,10 @@
 namespace lemma {
 namespace {
 
-/// Upper corner of a level's box.
-Vec3d upper_corner(const GridLevel& level) {
-  return level.lo + Vec3d(level.counts[0], level.counts[1], level.counts[2]) / level.cells_per_unit;
-}
-
 /// The largest coordinate difference between the ray's origin and a point of the scene.
 double largest_distance(const GridCells& grid, const Ray& ray) {
   const Vec3d o(ray.origin);
-  const GridLevel& scene = grid.levels.front();
-  return std::max(max_norm(scene.lo - o), max_norm(upper_corner(scene) - o));
+  return std::max(max_norm(grid.lo - o), max_norm(grid.hi - o));
 }
 
 /// Walks over all occupied cells near a ray.

@@ -52,8 +52,8 @@ constexpr float kTiny = 0x1p-126f;
 constexpr bool kPreciseEdges = HWY_NATIVE_FMA != 0;
 
 /// Tests up to kWidth triangles of a list at a time: what it cannot rule out, the test of one triangle
-/// decides.
-template <std::size_t kWidth>
+/// decides, unless any hit will do and it is sure of one.
+template <bool kAny, std::size_t kWidth>
 class BlockTest {
  public:
   using Lanes = hn::CappedTag<float, kWidth>;
@@ -67,17 +67,25 @@ class BlockTest {
         oy_(hn::Set(kLanes, ray.origin[ray.ky])),
         oz_(hn::Set(kLanes, ray.origin[ray.kz])) {}
 
-  /// Bit i is set if the ray may hit triangle i of `count` at a t up to `t_max`.
-  /// @param size  distance between the arrays of packed vertices
-  HWY_INLINE std::uint64_t candidates(const float* packed, std::size_t size, std::size_t count,
-                                      float t_max) const {
+  struct Found {
+    std::uint64_t may_hit;  // bit i is set if the ray may hit triangle i at a t up to `t_max`
+    bool hits;              // it surely hits one of them before; never set unless kAny
+  };
+  /// @param count  triangles to test: the first of the lanes
+  /// @param size   distance between the arrays of packed vertices
+  HWY_INLINE Found find(const float* packed, std::size_t size, std::size_t count, float t_max) const {
     const Vertices a = shear(packed, size), b = shear(packed + 3 * size, size),
                    c = shear(packed + 6 * size, size);
     const Edges e{edge(c.x, c.y, b.x, b.y), edge(a.x, a.y, c.x, c.y), edge(b.x, b.y, a.x, a.y)};
     auto may_hit = hn::And(line_may_pass(e), hn::FirstN(kLanes, count));
-    if (HWY_LIKELY(hn::AllFalse(kLanes, may_hit))) return 0;
-    if constexpr (kPreciseEdges) may_hit = hn::And(may_hit, distance_may_count(e, a.z, b.z, c.z, t_max));
-    return bits_of(kLanes, may_hit);
+    if (HWY_LIKELY(hn::AllFalse(kLanes, may_hit))) return {0, false};
+    bool hits = false;
+    if constexpr (kPreciseEdges) {
+      const Distance t = distance(e, a.z, b.z, c.z, t_max);
+      if constexpr (kAny) hits = !hn::AllFalse(kLanes, hn::And(hn::And(may_hit, line_passes(e)), t.inside()));
+      may_hit = hn::AndNot(t.outside(), may_hit);
+    }
+    return {bits_of(kLanes, may_hit), hits};
   }
 
  private:
@@ -105,12 +113,26 @@ class BlockTest {
     return hn::Not(hn::And(hn::Lt(least, hn::Set(kLanes, -kTiny)), hn::Gt(most, hn::Set(kLanes, kTiny))));
   }
 
-  /// t = sz (u a.z + v b.z + w c.z) / (u + v + w) may lie in (t_min, t_max], where u, v, w have one sign. The
+  /// All edge functions have one sign, so that those of intersect(), which are exact, have it too.
+  static HWY_INLINE hn::Mask<Lanes> line_passes(const Edges& e) {
+    const Floats least = hn::Min(hn::Min(e.u, e.v), e.w), most = hn::Max(hn::Max(e.u, e.v), e.w);
+    return hn::Or(hn::Gt(least, hn::Set(kLanes, kTiny)), hn::Lt(most, hn::Set(kLanes, -kTiny)));
+  }
+
+  /// t |u + v + w| lies in [first, last], and the ray's range in [near, far]. Not a number is neither inside
+  /// nor outside.
+  struct Distance {
+    Floats first, last, near, far;
+
+    HWY_INLINE hn::Mask<Lanes> outside() const { return hn::Or(hn::Lt(last, near), hn::Gt(first, far)); }
+    HWY_INLINE hn::Mask<Lanes> inside() const { return hn::And(hn::Gt(first, near), hn::Lt(last, far)); }
+  };
+
+  /// t = sz (u a.z + v b.z + w c.z) / (u + v + w) against (t_min, t_max], where u, v, w have one sign. The
   /// numerator here and the one that intersect() rounds to t differ by less than 16 roundings of sz |u + v +
   /// w| times the largest |z|: 2 for the edges, 6 for its terms and their sums, 3 for the denominator, 2 for
   /// this comparison, 1 for t. What underflows adds less than 2^-100 sz as long as |z| < 2^40.
-  HWY_INLINE hn::Mask<Lanes> distance_may_count(const Edges& e, Floats az, Floats bz, Floats cz,
-                                                float t_max) const {
+  HWY_INLINE Distance distance(const Edges& e, Floats az, Floats bz, Floats cz, float t_max) const {
     const Floats sum = hn::Add(hn::Add(e.u, e.v), e.w), weight = hn::Abs(sum);
     const Floats moment = hn::MulAdd(e.u, az, hn::MulAdd(e.v, bz, hn::Mul(e.w, cz)));
     const Floats reach = hn::Max(hn::Max(hn::Abs(az), hn::Abs(bz)), hn::Abs(cz));
@@ -119,9 +141,8 @@ class BlockTest {
     const float scale = std::abs(ray_.sz);
     const Floats doubt = hn::MulAdd(hn::Mul(reach, weight), hn::Set(kLanes, scale * 0x1p-20f),
                                     hn::Set(kLanes, scale * 0x1p-100f));
-    const auto before = hn::Lt(hn::Add(along, doubt), hn::Mul(weight, hn::Set(kLanes, ray_.t_min)));
-    const auto behind = hn::Gt(hn::Sub(along, doubt), hn::Mul(weight, hn::Set(kLanes, t_max)));
-    return hn::Not(hn::Or(before, behind));
+    return {hn::Sub(along, doubt), hn::Add(along, doubt), hn::Mul(weight, hn::Set(kLanes, ray_.t_min)),
+            hn::Mul(weight, hn::Set(kLanes, t_max))};
   }
 
   const ShearedRay& ray_;
@@ -129,18 +150,18 @@ class BlockTest {
 };
 
 /// Tests the triangles of cells, many at a time: hits are those of brute force to the bit.
+template <bool kAny>
 class CellTest {
  public:
   HWY_INLINE explicit CellTest(const ShearedRay& ray) : ray_(ray), few_(ray), many_(ray) {}
 
   /// intersect() with each triangle of the cell's list. Sixteen lanes took longer for lists of a few.
-  template <bool kAny>
   HWY_INLINE bool operator()(const GridCells& grid, const GridCells::Record& list, Hit& best) const {
-    return list.count <= 8 ? test<kAny>(few_, grid, list, best) : test<kAny>(many_, grid, list, best);
+    return list.count <= 8 ? test(few_, grid, list, best) : test(many_, grid, list, best);
   }
 
  private:
-  template <bool kAny, class Block>
+  template <class Block>
   HWY_INLINE bool test(const Block& block, const GridCells& grid, const GridCells::Record& list,
                        Hit& best) const {
     const std::size_t size = list.count;
@@ -148,20 +169,32 @@ class CellTest {
     const std::uint32_t* triangles = grid.references.data() + list.begin;
     bool hit = false;
     for (std::size_t i = 0; i < size; i += hn::Lanes(block.kLanes)) {
-      for (std::uint64_t rest = block.candidates(packed + i, size, size - i, best.t); rest != 0;
-           rest &= rest - 1) {
+      const auto [may_hit, hits] = block.find(packed + i, size, size - i, best.t);
+      if (hits) return true;
+      for (std::uint64_t rest = may_hit; rest != 0; rest &= rest - 1) {
         const std::size_t j = i + static_cast<std::size_t>(std::countr_zero(rest));
         if (triangles[j] == best.triangle && best.t < ray_.t_max) continue;  // hit before
-        hit |= intersect(ray_, grid.triangle(list, j), triangles[j], best);
+        const float* triangle = packed + j;
+        hit |= intersect(ray_, shear(triangle, size), shear(triangle + 3 * size, size),
+                         shear(triangle + 6 * size, size), triangles[j], best);
         if (kAny && hit) return true;
       }
     }
     return hit;
   }
 
+  /// A vertex of a packed triangle: shear() of accel/watertight.h, rounding for rounding.
+  [[nodiscard]] HWY_INLINE watertight::Vertex shear(const float* vertex, std::size_t size) const {
+    const auto k = [&](int axis) {
+      return vertex[static_cast<std::size_t>(axis) * size] - ray_.origin[axis];
+    };
+    const float z = k(ray_.kz);
+    return {k(ray_.kx) - ray_.sx * z, k(ray_.ky) - ray_.sy * z, z};
+  }
+
   const ShearedRay& ray_;
-  const BlockTest<8> few_;
-  const BlockTest<GridCells::kOverread> many_;
+  const BlockTest<kAny, 8> few_;
+  const BlockTest<kAny, GridCells::kOverread> many_;
 };
 
 /// As many slices of a grid at a time as there are lanes: a 3D DDA in parallel. In each slice the ray passes
@@ -183,7 +216,7 @@ class Slices {
 
   /// Finds the occupied cells of the slices from `first` on that the ray enters at s <= reach.
   HWY_INLINE Slices(const GridCells::Word* occupied, const GridCrossing& ray, int first, float reach) {
-    const Ints number = hn::Iota(n, first);
+    const Ints number = hn::Add(hn::Iota(n, 0), hn::Set(n, first));
     const Floats leave = hn::Add(hn::ConvertTo(f, number), hn::Set(f, ray.to_plane));
     const Floats enter = hn::Max(hn::Sub(leave, hn::Set(f, 1)), hn::Zero(f));
     const Ints slice = hn::Add(hn::Mul(number, hn::Set(n, ray.step)), hn::Set(n, ray.slice));
@@ -306,12 +339,12 @@ class Walk {
  private:
   HWY_INLINE bool visit(const GridCells::Record& cell) {
     if (cell.count == GridCells::Record::kLevel) return through(grid_.levels[cell.begin]);
-    return tested_.is_new(cell.begin) && test_.template operator()<kAny>(grid_, cell, best_);
+    return tested_.is_new(cell.begin) && test_(grid_, cell, best_);
   }
 
   const GridCells& grid_;
   const Ray& ray_;
-  const CellTest test_;
+  const CellTest<kAny> test_;
   Hit& best_;
   LastLists tested_;
 };

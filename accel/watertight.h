@@ -71,14 +71,14 @@ inline float distance(const ShearedRay& ray, const Weights& e, const Vertex& a, 
 
 }  // namespace watertight
 
-/// The watertight test of one triangle, both sides. On a hit with t in (ray.t_min, t_max] that is nearer than
-/// `best`, or as near with a lower index, replaces `best` and says true. The shear rounds each vertex once,
-/// the same for all its triangles: a mesh may be moved by a rounding error, but never torn. The edge
-/// functions' signs are exact (edge), so a ray through a closed mesh hits it, also through edges and
-/// vertices. t errs by at most kPlaneError (src/core/error_bound.h) units of u M / cos.
-inline bool intersect(const ShearedRay& ray, const Triangle& triangle, std::uint32_t index, Hit& best) {
+/// The watertight test of one triangle, both sides, from its sheared vertices. On a hit with t in (ray.t_min,
+/// t_max] that is nearer than `best`, or as near with a lower index, replaces `best` and says true. The shear
+/// rounds each vertex once, the same for all its triangles: a mesh may be moved by a rounding error, but
+/// never torn. The edge functions' signs are exact (edge), so a ray through a closed mesh hits it, also
+/// through edges and vertices. t errs by at most kPlaneError (src/core/error_bound.h) units of u M / cos.
+inline bool intersect(const ShearedRay& ray, const watertight::Vertex& a, const watertight::Vertex& b,
+                      const watertight::Vertex& c, std::uint32_t index, Hit& best) {
   using namespace watertight;
-  const Vertex a = shear(ray, triangle.v0), b = shear(ray, triangle.v1), c = shear(ray, triangle.v2);
   const Weights e = weights(a, b, c);
   if (!passes_through(e)) return false;
   if (e.sum == 0) return false;
@@ -86,6 +86,13 @@ inline bool intersect(const ShearedRay& ray, const Triangle& triangle, std::uint
   if (!(t > ray.t_min && (t < best.t || (t == best.t && index < best.triangle)))) return false;
   best = {t, index, static_cast<float>(e.v / e.sum), static_cast<float>(e.w / e.sum)};
   return true;
+}
+
+/// The same from the triangle itself.
+inline bool intersect(const ShearedRay& ray, const Triangle& triangle, std::uint32_t index, Hit& best) {
+  using watertight::shear;
+  return intersect(ray, shear(ray, triangle.v0), shear(ray, triangle.v1), shear(ray, triangle.v2), index,
+                   best);
 }
 
 /// The hit on a triangle that another test has found: t and barycentric coordinates as intersect() computes

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "accel/accelerator.h"
@@ -95,6 +97,38 @@ TEST(GridParity, InstructionSetsAgree) {
       ASSERT_EQ(trace.any(cells, ray, sheared), expected.has_value()) << trace.name;
     }
   }
+}
+
+/// Ranges that end at a hit or at the next number to it, from near and as far as rays are walked: the tests
+/// of many triangles at a time err there, and must know it.
+TEST(GridParity, RangesThatEndAtTheHit) {
+  const auto triangles = test::random_triangles(300, 0.3f, 43);
+  const GridCells cells = build_grid_cells(triangles, {GridResolution::Rule::density, 30});
+  const auto brute = make("brute", triangles);
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  std::size_t hits = 0;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    Sampler random(44, i, 0);
+    const Vec3 to = random_point(random), way = random_direction(random) * (i % 3 == 0 ? 50.0f : 1.0f);
+    const Ray whole{to - way, i % 2 == 0 ? way : normalize(way)};
+    const auto hit = brute->closest_hit(whole);
+    if (!hit) continue;
+    ++hits;
+    const std::array<std::array<float, 2>, 4> ranges{
+        {{0, hit->t}, {0, std::nextafter(hit->t, inf)}, {hit->t, inf}, {std::nextafter(hit->t, 0.0f), inf}}};
+    for (const auto& range : ranges) {
+      const Ray ray{whole.origin, whole.direction, range[0], range[1]};
+      const ShearedRay sheared(ray);
+      const auto expected = brute->closest_hit(ray);
+      for (const GridTrace& trace : grid_traces()) {
+        Hit best = no_hit(sheared);
+        trace.closest(cells, ray, sheared, best);
+        ASSERT_EQ(best, expected.value_or(no_hit(sheared))) << trace.name;
+        ASSERT_EQ(trace.any(cells, ray, sheared), expected.has_value()) << trace.name;
+      }
+    }
+  }
+  EXPECT_GT(hits, 1000u);
 }
 
 /// A small sphere of many triangles in a large box, in a cell of its own: the cell becomes a grid.

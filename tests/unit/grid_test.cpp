@@ -75,14 +75,14 @@ std::optional<std::uint32_t> occupied_cell_at(const GridCells& grid, const GridL
   return grid.is_occupied(level, cell) ? std::optional(cell) : std::nullopt;
 }
 
-/// On every level: 3000 triangles, of which 2000 in a hundredth of the scene's volume.
+/// A scene's level and others: 3000 triangles in 1000 cells, of which 2000 in a hundredth of the volume.
 GridCells grid_of_levels(std::vector<Triangle>& triangles) {
   triangles = test::random_triangles(1000, 0.05f, 4);
   for (Triangle t : test::random_triangles(2000, 0.05f, 7)) {
     t = {t.v0 * 0.2f, t.v1 * 0.2f, t.v2 * 0.2f};
     triangles.push_back(t);
   }
-  return build_grid_cells(triangles, {});
+  return build_grid_cells(triangles, {GridResolution::Rule::density, 1000});
 }
 
 /// Points of triangles, moved by nine tenths of the margin of the scene's cells, lie in cells that list them.
