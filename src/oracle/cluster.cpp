@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -40,29 +39,50 @@ std::vector<Edge> sorted_edges(std::span<const Triangle> triangles, std::span<co
   return edges;
 }
 
-/// For each passage the first of its cluster: those joined across edges that are not clear.
+/// Sets of passages that are joined; each is known by the first of its members.
 class Clusters {
  public:
-  Clusters(std::span<const Edge> edges, std::size_t members) : parent_(members) {
+  explicit Clusters(std::size_t members) : parent_(members) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-      const Edge &a = edges[i - 1], &b = edges[i];
-      if (a.key() == b.key() && !(a.clear && b.clear)) join(a.member, b.member);
-    }
   }
 
-  [[nodiscard]] std::size_t of(std::size_t member) const {
-    while (parent_[member] != member) member = parent_[member];
+  [[nodiscard]] std::size_t of(std::size_t member) {
+    while (parent_[member] != member) {
+      parent_[member] = parent_[parent_[member]];  // halves the way for the next time
+      member = parent_[member];
+    }
     return member;
   }
 
- private:
   void join(std::size_t a, std::size_t b) {
     a = of(a), b = of(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
 
+ private:
   std::vector<std::size_t> parent_;
+};
+
+/// For each passage the first of its cluster: those joined across edges that are not clear.
+std::vector<std::size_t> cluster_of_each(std::span<const Edge> edges, std::size_t members) {
+  Clusters clusters(members);
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const Edge &a = edges[i - 1], &b = edges[i];
+    if (a.key() == b.key() && !(a.clear && b.clear)) clusters.join(a.member, b.member);
+  }
+  std::vector<std::size_t> cluster(members);
+  for (std::size_t m = 0; m < members; ++m) cluster[m] = clusters.of(m);
+  return cluster;
+}
+
+/// What a cluster does to the ray, as far as it has been looked at.
+struct Cover {
+  double t = -std::numeric_limits<double>::infinity();  // of the farthest triangle that may be hit
+  bool in_range = true;                                 // no triangle may lie beyond the ends of the range
+  bool clear = true;                                    // no edge of the curve around it is in doubt
+  bool winds = false;                                   // and that curve winds around the ray
+
+  [[nodiscard]] bool must_be_hit() const { return in_range && clear && winds; }
 };
 
 /// Whether the half-line from the ray along +x crosses an edge, in the coordinates of LongRay::beside. The
@@ -74,45 +94,48 @@ bool crosses(const LongRay& ray, const Edge& edge) {
   return (a.x * b.y - b.x * a.y > 0) == (b.y > a.y);
 }
 
-/// Whether the edges of a cluster that occur an odd number of times are clear of the ray and wind around it.
-bool surrounds(const LongRay& ray, std::span<const Edge> edges, const Clusters& clusters,
-               std::size_t cluster) {
-  bool odd = false;
+void add_triangles(std::span<const Passage> near, std::span<const std::size_t> cluster,
+                   std::span<Cover> covers) {
+  for (std::size_t m = 0; m < near.size(); ++m) {
+    if (near[m].inside == Passage::Answer::no) continue;
+    Cover& cover = covers[cluster[m]];
+    cover.in_range &= near[m].in_range == Passage::Answer::yes;
+    cover.t = std::max(cover.t, near[m].hi);
+  }
+}
+
+/// The edges that occur an odd number of times in a cluster are the curve around it.
+void add_curves(const LongRay& ray, std::span<Edge> edges, std::span<const std::size_t> cluster,
+                std::span<Cover> covers) {
+  const auto cluster_of = [&](const Edge& e) { return cluster[e.member]; };
   for (auto first = edges.begin(); first != edges.end();) {
     const auto last =
         std::find_if(first, edges.end(), [&](const Edge& e) { return e.key() != first->key(); });
-    const auto ours = [&](const Edge& e) { return clusters.of(e.member) == cluster; };
-    if (std::count_if(first, last, ours) % 2 == 1) {
-      if (std::any_of(first, last, [&](const Edge& e) { return ours(e) && !e.clear; })) return false;
-      odd ^= crosses(ray, *first);
+    std::ranges::sort(first, last, {}, cluster_of);
+    while (first != last) {
+      const auto next =
+          std::find_if(first, last, [&](const Edge& e) { return cluster_of(e) != cluster_of(*first); });
+      if ((next - first) % 2 == 1) {
+        Cover& cover = covers[cluster_of(*first)];
+        cover.clear &= std::all_of(first, next, [](const Edge& e) { return e.clear; });
+        cover.winds ^= crosses(ray, *first);
+      }
+      first = next;
     }
-    first = last;
   }
-  return odd;
-}
-
-/// The t by which a cluster that surrounds the ray has been hit: that of its farthest triangle. Nothing if
-/// one of them may lie beyond the ends of the range.
-std::optional<double> hit_by(std::span<const Passage> near, const Clusters& clusters, std::size_t cluster) {
-  double t = -std::numeric_limits<double>::infinity();
-  for (std::size_t m = 0; m < near.size(); ++m) {
-    if (clusters.of(m) != cluster || near[m].inside == Passage::Answer::no) continue;
-    if (near[m].in_range != Passage::Answer::yes) return std::nullopt;
-    t = std::max(t, near[m].hi);
-  }
-  return t;
 }
 
 }  // namespace
 
 double covered_by(const LongRay& ray, std::span<const Triangle> triangles, std::span<const Passage> near) {
-  const std::vector<Edge> edges = sorted_edges(triangles, near);
-  const Clusters clusters(edges, near.size());
+  std::vector<Edge> edges = sorted_edges(triangles, near);
+  const std::vector<std::size_t> cluster = cluster_of_each(edges, near.size());
+  std::vector<Cover> covers(near.size());
+  add_triangles(near, cluster, covers);
+  add_curves(ray, edges, cluster, covers);
   double reach = std::numeric_limits<double>::infinity();
-  for (std::size_t m = 0; m < near.size(); ++m) {
-    if (clusters.of(m) != m) continue;
-    const std::optional<double> t = hit_by(near, clusters, m);
-    if (t && *t < reach && surrounds(ray, edges, clusters, m)) reach = *t;
+  for (const Cover& cover : covers) {
+    if (cover.must_be_hit()) reach = std::min(reach, cover.t);
   }
   return reach;
 }
