@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
@@ -19,6 +20,9 @@ namespace lemma::bench {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 360, kBatch = 16;
+
+constexpr const char* kRealScenes = "LEMMA_REAL_SCENES";  // a folder with the course's staircase
+constexpr const char* kStaircase = "staircase";
 
 Case scene_case(const std::filesystem::path& path) {
   Scene scene = load_scene(path).scene;
@@ -60,8 +64,18 @@ void add_secondary_rays(const Case& scene, const Ray& ray, const Hit& hit, Sampl
 
 }  // namespace
 
-std::span<const std::string> case_names() {
-  static const std::array<std::string, 4> names{"veach-mis", "interior", "sphere-1M", "field-1M"};
+std::vector<std::string> case_names() {
+  std::vector<std::string> names{"veach-mis", "interior", "sphere-1M", "field-1M"};
+  if (std::getenv(kRealScenes) != nullptr) names.insert(names.begin() + 2, kStaircase);
+  return names;
+}
+
+std::vector<std::string> growth_names() {
+  std::vector<std::string> names;
+  for (const char* mesh : {"sphere", "field"}) {
+    for (const char* count : {"1k", "4k", "16k", "64k", "250k", "1M", "4M"})
+      names.push_back(fmt::format("{}-{}", mesh, count));
+  }
   return names;
 }
 
@@ -77,6 +91,9 @@ Case make_case(const std::string& name) {
     return {height_field(parse_count(name.substr(6))),
             {{1, 0.7f, 1.2f}, {0, 0, 0}, {0, 1, 0}, 60},
             lamp({0, 0.8f, 0}, 0.3f)};
+  const char* real_scenes = std::getenv(kRealScenes);
+  if (name == kStaircase && real_scenes != nullptr)
+    return scene_case(std::filesystem::path(real_scenes) / "zju-2022-staircase");
   return scene_case(name);
 }
 

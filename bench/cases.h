@@ -18,12 +18,16 @@ struct Case {
   std::vector<Triangle> lights;  // shadow rays aim at points of these
 };
 
-/// Makes the case of a name of case_names(), "sphere-N" or "field-N" with a number of triangles N (1000, 16k,
-/// 4M), or of the scene in a folder or file.
+/// Makes the case of a name below, "sphere-N" or "field-N" with a number of triangles N (1000, 16k, 4M), or
+/// of the scene in a folder or file.
 [[nodiscard]] Case make_case(const std::string& name);
 
-/// The four cases of the table of ratios.
-[[nodiscard]] std::span<const std::string> case_names();
+/// The cases of the table of ratios: four, and the staircase where LEMMA_REAL_SCENES names the folder of it,
+/// since it may not be part of the project.
+[[nodiscard]] std::vector<std::string> case_names();
+
+/// Growth with the number of triangles, from 1k to 4M.
+[[nodiscard]] std::vector<std::string> growth_names();
 
 /// Rays as a renderer traces them, in its order: one a pixel in rows of 16, at fixed random numbers.
 struct RecordedRays {

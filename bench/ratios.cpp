@@ -110,7 +110,8 @@ void print_ratios(const std::vector<std::string>& cases, int rounds, const std::
     std::fflush(stdout);
   }
   json["geometric_mean"] = std::exp(log_sum / terms);
-  fmt::print("geometric mean of primary, bounce and shadow: {:.2f}\n", std::exp(log_sum / terms));
+  fmt::print("geometric mean of primary, bounce and shadow over {} cases: {:.2f}\n", cases.size(),
+             std::exp(log_sum / terms));
   if (!json_file.empty()) std::ofstream(json_file) << json.dump(2) << '\n';
 }
 

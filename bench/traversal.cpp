@@ -1,12 +1,15 @@
 // How fast the accelerators build and trace.
 //   traversal [Google Benchmark's options]       build/<accel>/<case>, trace/<accel>/<case>/<ray kind>
-//   traversal --ratios [case...] [--rounds=N] [--ratios-out=FILE.json]
-//                                                grid against embree, measured in turns (ratios.h)
+//   traversal --ratios [case...] [--growth] [--rounds=N] [--ratios-out=FILE.json]
+//                                                grid against embree, measured in turns (ratios.h);
+//                                                --growth: meshes from 1k to 4M triangles
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <map>
+#include <stdexcept>
 
 #include "bench/cases.h"
 #include "bench/ratios.h"
@@ -70,14 +73,12 @@ void register_case(const std::string& name) {
   }
 }
 
-/// Growth with the number of triangles: a million of each is among the cases of the table.
-constexpr const char* kGrowth[] = {"sphere-1k",   "sphere-4k", "sphere-16k", "sphere-64k",
-                                   "sphere-250k", "sphere-4M", "field-1k",   "field-4k",
-                                   "field-16k",   "field-64k", "field-250k", "field-4M"};
-
 int run_benchmarks(int argc, char** argv) {
-  for (const std::string& name : case_names()) register_case(name);
-  for (const char* name : kGrowth) register_case(name);
+  std::vector<std::string> names = case_names();
+  for (const std::string& name : growth_names()) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  for (const std::string& name : names) register_case(name);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();
@@ -94,11 +95,16 @@ int run_ratios(const std::vector<std::string>& arguments) {
       rounds = std::max(std::stoi(argument.substr(9)), 1);
     } else if (argument.starts_with("--ratios-out=")) {
       json_file = argument.substr(13);
+    } else if (argument == "--growth") {
+      for (const std::string& name : growth_names()) cases.push_back(name);
+    } else if (argument.starts_with("--")) {
+      throw std::runtime_error(
+          fmt::format("no option {}; there are --growth, --rounds=N and --ratios-out=FILE.json", argument));
     } else {
       cases.push_back(argument);
     }
   }
-  if (cases.empty()) cases.assign(case_names().begin(), case_names().end());
+  if (cases.empty()) cases = case_names();
   print_ratios(cases, rounds, json_file);
   return 0;
 }
