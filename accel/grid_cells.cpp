@@ -35,6 +35,10 @@ constexpr double kCellMargin = 1.0 / 256;
 constexpr double kTrustedSizes = 64;
 constexpr double kReachMargin = kTrustedSizes * kPlaneError * kRoundoff;
 
+/// Cells are at least so many of these margins thick: thinner ones would mostly list their neighbours'
+/// triangles.
+constexpr double kMarginsACell = 4;
+
 /// Some of the triangles of a scene, and the box that a grid of them covers.
 struct Content {
   std::span<const Triangle> triangles;
@@ -127,11 +131,14 @@ Part lay_out(const Content& content, double target) {
   part.level.lo = content.lo;
   const Vec3d extent = content.hi - content.lo;
   part.level.counts = cell_counts(extent, std::min(target, kMaxCells));
+  const double reach_margin = kReachMargin * content.reach;
   for (int k = 0; k < 3; ++k) {
-    const double count = part.level.counts[static_cast<std::size_t>(k)];
+    int& count = part.level.counts[static_cast<std::size_t>(k)];
+    const double most = std::max(extent[k] / (kMarginsACell * reach_margin), 1.0);
+    if (count > most) count = static_cast<int>(most);
     part.cell_size[k] = extent[k] / count;
     part.level.cells_per_unit[k] = 1 / part.cell_size[k];
-    part.margin[k] = part.cell_size[k] * kCellMargin + kReachMargin * content.reach;
+    part.margin[k] = part.cell_size[k] * kCellMargin + reach_margin;
   }
   return part;
 }
@@ -234,7 +241,14 @@ void sort_into_lists(const std::vector<std::vector<Reference>>& chunks, Part& pa
   });
 }
 
-Part build(const Content& content, double target, int depth);
+/// A grid of one level.
+Part sort_in(const Content& content, double target) {
+  Part part = lay_out(content, target);
+  sort_into_lists(find_references(content, part), part);
+  return part;
+}
+
+void split_crowds(const Content& content, Part& part, int depth);
 
 /// A grid for a crowded list, if that takes its triangles apart.
 /// @param lo, hi  the cell, margin included
@@ -248,8 +262,10 @@ std::optional<Part> split_crowd(const Content& parent, std::span<const std::uint
     hi[k] = std::min(hi[k], bounds.hi[k] + pad);
   }
   const auto size = static_cast<double>(list.size());
-  Part child = build({parent.triangles, list, lo, hi, parent.reach}, kChildDensity * size, depth + 1);
+  const Content content{parent.triangles, list, lo, hi, parent.reach};
+  Part child = sort_in(content, kChildDensity * size);
   if (static_cast<double>(child.references.size()) > kMaxCopies * size) return std::nullopt;
+  split_crowds(content, child, depth + 1);
   return child;
 }
 
@@ -280,13 +296,6 @@ void split_crowds(const Content& content, Part& part, int depth) {
     part.crowded.push_back(crowded[i]);
     part.children.push_back(std::move(*children[i]));
   }
-}
-
-Part build(const Content& content, double target, int depth) {
-  Part part = lay_out(content, target);
-  sort_into_lists(find_references(content, part), part);
-  split_crowds(content, part, depth);
-  return part;
 }
 
 /// Lists of references that are equal share their memory: cells that one large triangle passes through.
@@ -403,9 +412,10 @@ GridCells build_grid_cells(std::span<const Triangle> triangles, const GridResolu
   grid.trusted_distance = kTrustedSizes * reach;
   grid.lo = lo;
   grid.hi = hi;
-  append(build({triangles, all, lo - Vec3d(pad), hi + Vec3d(pad), reach},
-               target_cells(resolution, triangles, hi - lo), 0),
-         grid);
+  const Content scene{triangles, all, lo - Vec3d(pad), hi + Vec3d(pad), reach};
+  Part part = sort_in(scene, target_cells(resolution, triangles, hi - lo));
+  split_crowds(scene, part, 0);
+  append(part, grid);
   pack_vertices(triangles, grid);
   return grid;
 }

@@ -120,6 +120,21 @@ TEST(GridCells, ListTheTrianglesOfTheirPointsMarginIncluded) {
   EXPECT_GT(moved_over, 100);
 }
 
+/// A ball of 30k triangles that are small against the margin of cells in a box 2000 times as large: lists of
+/// a tenth of them at most, and few copies.
+TEST(GridCells, ATinyCrowdInALargeBoxComesApart) {
+  auto triangles = test::sphere_mesh({30, -40, 20}, 0.1f, 123, 123);
+  const std::size_t crowd = triangles.size();
+  const auto box = test::inward_box({-100, -100, -100}, {100, 100, 100});
+  triangles.insert(triangles.end(), box.begin(), box.end());
+  const GridCells grid = build_grid_cells(triangles, {});
+  EXPECT_LT(grid.references.size(), 8 * crowd);
+  for (const GridCells::Record& record : grid.records) {
+    if (record.count == GridCells::Record::kLevel) continue;
+    EXPECT_LT(record.count, crowd / 10);
+  }
+}
+
 /// Steps along rays find no occupied cell that the walk does not visit, whatever the instruction set.
 TEST(GridWalk, VisitsTheOccupiedCellsAlongTheRay) {
   std::vector<Triangle> triangles;
