@@ -38,6 +38,15 @@ namespace lemma {
   return world.lights.pdf(from, world.scene.facets[hit.triangle].emitter, y);
 }
 
+/// Looks for lights from a vertex.
+template <Model M>
+void look_from(const Vertex<M>& vertex, const World& world, LightQuery& at) {
+  at.x = vertex.origin();
+  at.n = vertex.shading_normal();
+  at.reflection = vertex.reflection();
+  world.lights.prepare(at);
+}
+
 /// Whether the ray to a point of an emitter meets another emitter on top of it there.
 [[nodiscard]] inline bool is_covered(const Scene& scene, const Ray& to_light, std::uint32_t emitter) {
   const std::uint32_t triangle = scene.emitters[emitter].triangle;

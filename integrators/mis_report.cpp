@@ -39,7 +39,8 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M>> {
       if (is_cut(options_, depth, tracer, observer)) break;
       const Vertex<M> vertex(world.scene, ray, *hit);
       observer.surface(*hit, vertex, throughput);
-      const LightQuery query = world.lights.query(vertex.origin(), vertex.shading_normal());
+      LightQuery& query = tracer.light_query;
+      look_from(vertex, world, query);
       const Branch light = follow_light(world, vertex, query, throughput, tracer, random, observer);
       const Branch brdf = follow_brdf(world, vertex, query, throughput, tracer, random, observer);
       radiance += light.contribution;

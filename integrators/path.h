@@ -26,8 +26,8 @@ class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Techniq
     Rgb radiance, throughput{1, 1, 1};
     Ray ray = camera_ray;
     std::optional<Hit> hit = first;
-    LightQuery query;        // of the vertex that the ray left ...
-    PdfSolidAngle pdf_brdf;  // ... in a direction of this density
+    LightQuery& query = tracer.light_query;  // of the vertex that the ray left ...
+    PdfSolidAngle pdf_brdf;                  // ... in a direction of this density
     for (int depth = 1; hit; ++depth) {
       if constexpr (M.overlays) hit = top_of(world.scene, ray, *hit);
       if (const Emitter* emitter = emitter_at(world.scene, *hit)) {
@@ -46,7 +46,7 @@ class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Techniq
       observer.surface(*hit, vertex, throughput);
       if constexpr (Technique::kSamplesLights) {
         if (!vertex.is_glass()) {
-          query = world.lights.query(vertex.origin(), vertex.shading_normal());
+          look_from(vertex, world, query);
           radiance += light_sample<M>(world, technique_, vertex, query, throughput, tracer, random, observer);
         }
       }

@@ -49,7 +49,8 @@ std::vector<float> PathRecorder::light_densities(std::uint32_t emitter, const Ve
   std::vector<float> densities;
   if (!from_) return densities;
   for (const auto& strategy : strategies_) {
-    densities.push_back(strategy->pdf(strategy->query(from_->x, from_->n), emitter, y).value);
+    const LightQuery at = strategy->query(from_->x, from_->n, from_->reflection);
+    densities.push_back(strategy->pdf(at, emitter, y).value);
   }
   return densities;
 }

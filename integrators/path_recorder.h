@@ -39,7 +39,7 @@ class PathRecorder {
 
   template <Model M>
   void surface(const Hit& hit, const Vertex<M>& vertex, const Rgb& throughput) {
-    add_surface(hit, {vertex.origin(), vertex.shading_normal()}, throughput);
+    add_surface(hit, {vertex.origin(), vertex.shading_normal(), vertex.reflection()}, throughput);
   }
 
   template <Model M>
@@ -62,9 +62,10 @@ class PathRecorder {
   void end(PathEnd why);
 
  private:
-  /// Where directions leave, with the shading normal there.
+  /// Where directions leave, with the shading normal there and what is reflected.
   struct Place {
     Vec3 x, n;
+    Reflection reflection;
   };
 
   void add_surface(const Hit& hit, const Place& place, const Rgb& throughput);

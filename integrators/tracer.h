@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "accel/accelerator.h"
+#include "src/lights/light_sampler.h"
 
 namespace lemma {
 
@@ -62,6 +63,7 @@ class Tracer {
   };
 
   TraceCounts counts;
+  LightQuery light_query;  // of the vertex at which a path is; kept here for its memory
 
  private:
   struct Stopwatch {

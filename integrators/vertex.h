@@ -50,6 +50,12 @@ class Vertex {
   /// Unit; light arriving from below it is not reflected.
   [[nodiscard]] const Vec3& shading_normal() const { return frame_.n; }
 
+  /// What it reflects, in outline.
+  [[nodiscard]] Reflection reflection() const {
+    if constexpr (!M.specular) return {};
+    return outline(material_, frame_.to_world({-wo_.x, -wo_.y, wo_.z}));
+  }
+
   /// Whether light goes on in single directions only, which no light sample finds.
   [[nodiscard]] bool is_glass() const {
     if constexpr (M.glass) {

@@ -19,8 +19,6 @@ class AreaSampler final : public LightSampler {
     }
   }
 
-  LightQuery query(const Vec3& x, const Vec3& n) const override { return {x, n}; }
-
   std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const override {
     const std::uint32_t i = choice_.sample(random.next_bits());
     const auto [b1, b2] = uniform_triangle(random.next_2d());

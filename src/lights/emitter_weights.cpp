@@ -46,15 +46,13 @@ EmitterBlock::Values EmitterWeights::weigh(std::size_t block, const LightQuery& 
   return weights;
 }
 
-LightQuery EmitterWeights::query(const Vec3& x, const Vec3& n) const {
-  LightQuery at{x, n, {}};
-  at.running_weights.reserve(blocks_.size());
+void EmitterWeights::prepare(LightQuery& at) const {
+  at.running_weights.clear();
   double running = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     running += sum(weigh(b, at));
     at.running_weights.push_back(running);
   }
-  return at;
 }
 
 std::optional<EmitterWeights::Choice> EmitterWeights::choose(const LightQuery& at, double u) const {

@@ -14,8 +14,8 @@ class EmitterWeights {
 
   EmitterWeights(std::span<const Emitter> emitters, Measure measure);
 
-  /// The query with the sums that the choice and its probability need.
-  [[nodiscard]] LightQuery query(const Vec3& x, const Vec3& n) const;
+  /// Finds the sums that the choice and its probability need.
+  void prepare(LightQuery& at) const;
 
   struct Choice {
     std::uint32_t emitter;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/core/bounds.h"
+#include "src/core/reflection.h"
 #include "src/lights/emitter.h"
 
 namespace lemma {
@@ -26,6 +27,9 @@ class LightImportance {
   explicit LightImportance(const LightBounds& bounds);
 
   [[nodiscard]] double operator()(const Vec3& x, const Vec3& n) const;
+
+  /// The mean of what is reflected at x over the directions to the emitters, about.
+  [[nodiscard]] float reflected(const Vec3& x, const Reflection& reflection) const;
 
  private:
   Vec3 centre_, axis_;

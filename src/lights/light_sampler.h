@@ -7,6 +7,7 @@
 
 #include "src/core/named.h"
 #include "src/core/pdf.h"
+#include "src/core/reflection.h"
 #include "src/core/sampler.h"
 #include "src/lights/emitter.h"
 
@@ -23,9 +24,11 @@ struct LightSample {
 };
 
 /// What a strategy needs to know about a reference point for both sampling and density: found once a point.
+/// Who looks from many points keeps one, whose memory then serves them all.
 struct LightQuery {
   Vec3 x;
-  Vec3 n;  // unit shading normal: light from below its horizon is not reflected
+  Vec3 n;                      // unit shading normal: light from below its horizon is not reflected
+  Reflection reflection = {};  // what is reflected above it
   // Sums of the emitters' weights up to each block of them (emitter_weights.h), where the strategy weighs
   // them so; else empty.
   std::vector<double> running_weights = {};
@@ -43,8 +46,17 @@ class LightSampler {
   LightSampler& operator=(const LightSampler&) = delete;
   virtual ~LightSampler() = default;
 
-  [[nodiscard]] virtual LightQuery query(const Vec3& x, const Vec3& n) const = 0;
+  /// Finds what else the query holds. Nothing, by default.
+  virtual void prepare(LightQuery&) const {}
 
+  /// A query of a point, prepared; one that reflects alike in all directions unless told.
+  [[nodiscard]] LightQuery query(const Vec3& x, const Vec3& n, const Reflection& reflection = {}) const {
+    LightQuery at{x, n, reflection};
+    prepare(at);
+    return at;
+  }
+
+  /// @param at  prepared
   /// @return nothing if the emitter chosen does not emit towards x
   [[nodiscard]] virtual std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const = 0;
 

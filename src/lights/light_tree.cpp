@@ -113,23 +113,31 @@ bool LightTree::is_light(const Node& node, const Vec3& x) const {
   return SphereCone::can_be_sampled(whole.centre, whole.radius, x);
 }
 
-/// Luminance x solid angle x cosine at the surface: of a light nearly exactly, of other nodes an estimate. 0
-/// only if no emitter of the node can contribute.
+/// Luminance x solid angle x cosine at the surface x what it reflects: of a light nearly exactly but for the
+/// last factor, of other nodes an estimate. 0 only if no emitter of the node can contribute.
 double LightTree::importance(const Node& node, const LightQuery& at) const {
-  if (node.children == 0) {
-    const EmitterView& view = views_[node.emitter];
-    return view.is_far(at.x) ? view.far_importance(at.x, at.n)
-                             : near_importance(emitters_[node.emitter], at.x, at.n);
-  }
+  const Reflection& reflection = at.reflection;
   if (node.whole != kNone) {
     const WholeLight& whole = wholes_[node.whole].body;
     const SphereCone cone(whole.centre, whole.radius, at.x);
     if (cone.can_be_sampled()) {
-      return luminance(emitters_[whole.emitters.front()].radiance) * cone.solid_angle() *
-             cone.mean_cosine(Vec3d(at.n));
+      const double irradiance = luminance(emitters_[whole.emitters.front()].radiance) * cone.solid_angle() *
+                                cone.mean_cosine(Vec3d(at.n));
+      if (reflection.peak == 0) return irradiance * reflection.diffuse;
+      return irradiance * reflection.mean(Vec3(cone.axis()), static_cast<float>(cone.one_minus_cos()));
     }
   }
-  return node.importance(at.x, at.n);
+  const double irradiance = irradiance_from(node, at);
+  if (reflection.peak == 0) return irradiance * reflection.diffuse;
+  return irradiance * node.importance.reflected(at.x, reflection);
+}
+
+/// Of a node that is no whole light.
+double LightTree::irradiance_from(const Node& node, const LightQuery& at) const {
+  if (node.children != 0) return node.importance(at.x, at.n);
+  const EmitterView& view = views_[node.emitter];
+  return view.is_far(at.x) ? view.far_importance(at.x, at.n)
+                           : near_importance(emitters_[node.emitter], at.x, at.n);
 }
 
 LightTree::Choice LightTree::choice(std::uint32_t index, double pmf, const Vec3& x) const {

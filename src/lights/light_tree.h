@@ -71,6 +71,7 @@ class LightTree {
   [[nodiscard]] Weights weigh_children(const Node& node, const LightQuery& at) const;
   [[nodiscard]] bool is_light(const Node& node, const Vec3& x) const;
   [[nodiscard]] double importance(const Node& node, const LightQuery& at) const;
+  [[nodiscard]] double irradiance_from(const Node& node, const LightQuery& at) const;
   [[nodiscard]] Choice choice(std::uint32_t node, double pmf, const Vec3& x) const;
 
   std::span<const Emitter> emitters_;

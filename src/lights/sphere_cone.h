@@ -17,6 +17,12 @@ class SphereCone {
   }
   [[nodiscard]] bool can_be_sampled() const { return can_be_sampled_; }
 
+  /// Unit.
+  [[nodiscard]] const Vec3d& axis() const { return axis_; }
+
+  /// Of the half angle.
+  [[nodiscard]] double one_minus_cos() const { return one_minus_cos_; }
+
   /// [sr]
   [[nodiscard]] double solid_angle() const;
 

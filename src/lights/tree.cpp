@@ -5,14 +5,13 @@
 namespace lemma {
 namespace {
 
-/// A light by a tree (light_tree.h), at a cost that grows with the logarithm of their number; then a
-/// direction uniform over its solid angle, or over the cone of its bounding sphere if it is a whole light. Of
-/// a whole light the sample is the emitter that the direction meets first, or nothing if it passes by.
+/// A light by a tree (light_tree.h), by what the surface reflects of it, at a cost that grows with the
+/// logarithm of their number; then a direction uniform over its solid angle, or over the cone of its bounding
+/// sphere if it is a whole light. Of a whole light the sample is the emitter that the direction meets first,
+/// or nothing if it passes by.
 class TreeSampler final : public LightSampler {
  public:
   explicit TreeSampler(std::span<const Emitter> emitters) : emitters_(emitters), tree_(emitters) {}
-
-  LightQuery query(const Vec3& x, const Vec3& n) const override { return {x, n}; }
 
   std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const override {
     const double choice = random.next_bits() * 0x1p-32;

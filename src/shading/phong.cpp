@@ -6,6 +6,10 @@
 namespace lemma {
 namespace {
 
+// Of ks, that an outline takes for diffuse: no light is ruled out by the lobe, and none chosen so rarely that
+// it flickers where the outline is wrong.
+constexpr float kLeastDiffuse = 0.05f;
+
 float channel_sum(const Rgb& c) {
   return c.r + c.g + c.b;
 }
@@ -66,6 +70,15 @@ Material make_material(const Rgb& kd, const Rgb& ks, float exponent, const BrdfO
           .sampling = options.sampling,
           .specular_factor = specular_factor(exponent, options),
           .diffuse_probability = diffuse_probability(kd, ks)};
+}
+
+Reflection outline(const Material& m, const Vec3& mirror) {
+  const float kd = luminance(m.kd), ks = luminance(m.ks);
+  const float n = m.lobe == Lobe::phong ? m.exponent : m.exponent / 4;
+  return {.mirror = mirror,
+          .diffuse = (kd + kLeastDiffuse * ks) * kInvPi,
+          .peak = ks * m.specular_factor,
+          .width = 1 / (n + 1)};
 }
 
 float largest_albedo(const Material& m) {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "src/core/pdf.h"
+#include "src/core/reflection.h"
 #include "src/core/rgb.h"
 #include "src/core/vec.h"
 #include "src/shading/brdf_options.h"
@@ -28,6 +29,10 @@ struct Material {
 
 /// The material with another diffuse albedo, as a texture gives it.
 [[nodiscard]] Material with_kd(const Material& material, const Rgb& kd);
+
+/// The material's BRDF in outline for a direction whose mirror direction is given. Blinn's lobe is about that
+/// of n / 4 there, since the half vector turns by half the angle.
+[[nodiscard]] Reflection outline(const Material& material, const Vec3& mirror);
 
 /// The part of the light that the material reflects at most, over channels and directions: that at normal
 /// incidence.

@@ -185,7 +185,9 @@ Outcome extremes_of_u(std::string_view) {
     const EmitterWeights weights(emitters, measure);
     for (std::uint32_t i = 0; i < 200; ++i) {
       Sampler random(95, i, 0);
-      const LightQuery at = weights.query(random_point(random) * 3, random_direction(random));
+      const Vec3 x = random_point(random) * 3;
+      LightQuery at{x, random_direction(random)};
+      weights.prepare(at);
       for (const double u : {0.0, last_choice}) {
         const auto choice = weights.choose(at, u);
         expect(!choice || (choice->emitter < emitters.size() && choice->pmf > 0), "choice", u, outcome);

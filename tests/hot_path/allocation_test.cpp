@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
-#include <string_view>
 
 #include "src/core/parallel.h"
 #include "tests/support/images.h"
@@ -50,11 +49,6 @@ std::uint64_t allocations_of(const Scene& scene, const test::Configuration& conf
   return allocations - before;
 }
 
-/// The light samplings that go over all emitters at each surface point keep a weight for each of them there.
-bool weighs_all_emitters(std::string_view lights) {
-  return lights == "solid-angle" || lights == "projected";
-}
-
 /// Rendering 16 times the samples takes not one allocation more: none is made for a sample, a path or a ray.
 TEST(HotPath, NoAllocationPerSample) {
   const ThreadLimit one_thread(1);  // starting threads allocates
@@ -63,7 +57,6 @@ TEST(HotPath, NoAllocationPerSample) {
     for (const char* accel : {"embree", "grid"}) {
       for (const auto& integrator : integrators()) {
         for (const auto& lights : light_samplers()) {
-          if (weighs_all_emitters(lights.name)) continue;
           const test::Configuration configuration{accel, integrator.name, lights.name};
           (void)allocations_of(scene, configuration, 1);  // what is made once
           const std::uint64_t few = allocations_of(scene, configuration, 2);

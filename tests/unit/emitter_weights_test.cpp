@@ -116,7 +116,8 @@ TEST(EmitterWeights, ChoicesHaveTheirProbability) {
   const Scene scene = test::own_scene("veach-mis", 16, 9);
   for (const Measure measure : {Measure::solid_angle, Measure::projected_solid_angle}) {
     const EmitterWeights weights(scene.emitters, measure);
-    const LightQuery at = weights.query({4, 0.01f, 0}, {0, 1, 0});
+    LightQuery at{{4, 0.01f, 0}, {0, 1, 0}};
+    weights.prepare(at);
     constexpr int draws = 200000;
     std::vector<int> counts(scene.emitters.size());
     for (int i = 0; i < draws; ++i) {
