@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tests/support/images.h"
@@ -12,10 +13,16 @@ struct Run {
   std::uint32_t spp = 1;
 };
 
-/// How many times the usual samples are taken: the number in the environment variable LEMMA_AGREEMENT,
-/// else 1. With more than 1 families are the products of all options as well. The bias that can be seen falls
-/// with its root: to 0.1 % of the mean takes 64 where 0.8 % is what the table says.
-[[nodiscard]] std::uint32_t agreement_effort();
+/// The bias [part of the image mean] that the environment variable LEMMA_AGREEMENT asks to see, in percent:
+/// LEMMA_AGREEMENT=0.1. Then each run takes as many samples as its noise, measured by a first rendering,
+/// says, up to kMostEffort times the usual, and families are the products of all options. Else nothing.
+[[nodiscard]] std::optional<double> wanted_bias();
+
+inline constexpr double kMostEffort = 64;
+
+/// What the usual samples must show at least: a factor of 2 in a weight or density is far beyond it in a run
+/// that depends on it.
+inline constexpr double kUsualBias = 0.1;
 
 /// Chance that one of the comparisons of a family fails although all estimators have the same mean: half of
 /// it for image means, half for blocks. Seeds are fixed, so a test that passes does so always; this is the
@@ -24,10 +31,10 @@ inline constexpr double kFalseAlarm = 1e-3;
 
 /// Renders every run with 32 seeds of its own, so that their errors are independent, and compares the means
 /// of the image and of its blocks of 8 x 8 pixels with those of the first run: Welch's t against Student's
-/// limit for the fewest degrees of freedom it can have, with Sidak's correction. Prints a row a run.
-/// @param detectable  part of the mean that a bias must have at most, with the usual samples, for its t to
-/// be expected at the limit; a run that is not as precise fails
-void expect_equal_means(const Scene& scene, std::vector<Run> runs, double detectable);
+/// limit for the fewest degrees of freedom it can have, with Sidak's correction. Limits so follow from the
+/// number of comparisons and the measured noise alone. Prints a row a run, with the bias that it sees: the
+/// one whose t is expected at the limit.
+void expect_equal_means(const Scene& scene, std::vector<Run> runs);
 
 /// All light samplings with both heuristics of `mis`; the other accelerator, sampler and roulette; light
 /// samples alone and BRDF samples alone. Those that need more samples for the same error get them.
