@@ -99,10 +99,13 @@ def main():
     print(f"report: {report}")
     for line in verdict_lines(results["summary"]):
         print(line)
-    if arguments.save_baseline:
-        arguments.save_baseline.write_text(json.dumps(baseline_of(results), indent=1) + "\n")
-    if baseline:
-        sys.exit(compare_with_baseline(baseline_of(results), baseline))
+    try:
+        if arguments.save_baseline:
+            arguments.save_baseline.write_text(json.dumps(baseline_of(results), indent=1) + "\n")
+        if baseline:
+            sys.exit(compare_with_baseline(baseline_of(results), baseline))
+    except ValueError as error:
+        sys.exit(f"bench: error: {error}")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import math
 
 ALLOWED = 0.8  # ratio to the baseline that noise and another processor may explain
 REGRESSED = 3  # exit code, as that of lemma when a comparison fails
+FIGURES = {"efficiency": "cpu_efficiency", "samples": "cpu_sample_rate"}  # by their keys in the summary
 EFFORT = ("size", "seconds")  # efficiencies of other ones are others: of sizes, and where the slope is not -1/2
 
 
@@ -21,42 +22,44 @@ def embree_rays_per_second(results):
 
 
 def baseline_of(results):
-    """What is kept of a run: 1 / (relMSE x Embree rays), as intervals, by scene and configuration."""
+    """What is kept of a run: FIGURES, as intervals, by scene and configuration."""
     rate = embree_rays_per_second(results)
     if rate is None:
         raise ValueError("a baseline needs the traversal table: build the program traversal")
-    efficiencies = {
-        scene: {name: {key: figures["cpu_efficiency"][key] and figures["cpu_efficiency"][key] / rate
-                       for key in ("value", "low", "high")}
-                for name, figures in configurations.items() if not figures["peer"]}
-        for scene, configurations in results["summary"].items()}
+    figures = {
+        kept: {scene: {name: {end: f[key][end] and f[key][end] / rate for end in ("value", "low", "high")}
+                       for name, f in configurations.items() if not f["peer"]}
+               for scene, configurations in results["summary"].items()}
+        for kept, key in FIGURES.items()}
     return {**{key: results[key] for key in ("machine", "version", "commit", "date")},
             "effort": {key: results["effort"][key] for key in EFFORT},
             "traversal_cases": [case["case"] for case in results["traversal"]["cases"]],
-            "efficiency_per_embree_ray": efficiencies}
+            "per_embree_ray": figures}
 
 
 def worsened(now, before):
-    """(scene, configuration, ratio) of all that both have, and those whose ratio's interval ends below what is allowed."""
+    """(figure, scene, configuration, ratio) of all that both have, and those whose ratio's interval ends below what is allowed."""
     for key in ("effort", "traversal_cases"):
         if now[key] != before[key]:
             raise ValueError(f"the baseline was measured with {key} {before[key]}, this run with {now[key]}")
     rows, bad = [], []
-    for scene, configurations in now["efficiency_per_embree_ray"].items():
-        for name, figures in configurations.items():
-            then = before["efficiency_per_embree_ray"].get(scene, {}).get(name)
-            if then is None:
-                continue
-            row = (scene, name, figures["value"] / then["value"])
-            rows.append(row)
-            if (figures["high"] or figures["value"]) / (then["low"] or then["value"]) < ALLOWED:
-                bad.append(row)
+    for kind, scenes in now["per_embree_ray"].items():
+        for scene, configurations in scenes.items():
+            for name, figures in configurations.items():
+                then = before["per_embree_ray"].get(kind, {}).get(scene, {}).get(name)
+                if then is None:
+                    continue
+                row = (kind, scene, name, figures["value"] / then["value"])
+                rows.append(row)
+                if (figures["high"] or figures["value"]) / (then["low"] or then["value"]) < ALLOWED:
+                    bad.append(row)
     return rows, bad
 
 
 def compare_with_baseline(now, before):
     rows, bad = worsened(now, before)
-    print(f"{'scene':<20}{'configuration':<28}{'efficiency, ratio to baseline':>30}")
-    for scene, name, ratio in rows:
-        print(f"{scene:<20}{name:<28}{ratio:>30.3f}{'  worse' if (scene, name, ratio) in bad else ''}")
+    print(f"{'ratio to the baseline of':<28}{'scene':<20}{'configuration':<28}")
+    for row in rows:
+        kind, scene, name, ratio = row
+        print(f"{kind:<28}{scene:<20}{name:<28}{ratio:>8.3f}{'  worse' if row in bad else ''}")
     return REGRESSED if bad else 0

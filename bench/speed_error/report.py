@@ -118,7 +118,8 @@ def scene_section(scene, results, folder):
     parts += [figure(svg, f"Efficiency after {seconds:g} s."), f'<p class="verdict">{escape(text[0].upper() + text[1:])}.</p>',
               efficiency_table(configurations, seconds, results["relative_to"]), errors_table(configurations),
               '<p class="note">In brackets: 95 % confidence over seeds. By CPU time: of all threads, in which other work on the machine '
-              "does not count. The mean against the reference: lemma compare --statistical on the first seed. Slope: of the root of "
+              "does not count. The mean against the reference: lemma compare --statistical on the first seed; with few samples a pixel values "
+              "are far from normal, and its alarms more than stated. Slope: of the root of "
               "relMSE over samples; independent samples have -0.5. A run that ends up to a fifth before a time counts there with its "
               "last error. * not reached by all runs: goes on with the error as one over the time.</p>",
               f"<h3>Images after {seconds:g} s</h3>", viewer(scene, configurations, reference)]

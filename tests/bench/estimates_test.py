@@ -154,10 +154,13 @@ class VerdictTest(unittest.TestCase):
 
 class RegressionTest(unittest.TestCase):
     @staticmethod
-    def results(efficiency, rays_per_second=1e6, size="8x8"):
+    def results(efficiency, rays_per_second=1e6, size="8x8", rate=None):
         """A run of one configuration, and of a peer, on a machine that traces so many rays a second."""
+        rate = rate or rays_per_second
+
         def figures(peer):
-            return {"peer": peer, "cpu_efficiency": {"value": efficiency, "low": 0.95 * efficiency, "high": 1.05 * efficiency}}
+            interval = {"value": efficiency, "low": 0.95 * efficiency, "high": 1.05 * efficiency}
+            return {"peer": peer, "cpu_efficiency": interval, "cpu_sample_rate": {"value": 10 * rate, "low": None, "high": None}}
 
         trace = {"primary": {"embree_rays_per_s": 2 * rays_per_second}, "shadow": {"embree_rays_per_s": rays_per_second / 2}}
         return {"machine": "m", "version": "v", "commit": "c", "date": "d", "effort": {"size": size, "seconds": 1, "seeds": 5},
@@ -175,12 +178,16 @@ class RegressionTest(unittest.TestCase):
         self.assertEqual(self.bad(self.results(50, 5e5), self.results(100, 1e6)), 0)
         self.assertEqual(self.bad(self.results(100, 2e6), self.results(100, 1e6)), 1)
 
+    def test_fewer_samples_are_told_too(self):
+        self.assertEqual(self.bad(self.results(100, rate=0.7e6), self.results(100)), 1)
+        self.assertEqual(self.bad(self.results(100, rate=0.9e6), self.results(100)), 0)
+
     def test_other_renderers_have_no_baseline(self):
-        self.assertEqual(list(regression.baseline_of(self.results(1))["efficiency_per_embree_ray"]["s"]), ["default"])
+        self.assertEqual(list(regression.baseline_of(self.results(1))["per_embree_ray"]["efficiency"]["s"]), ["default"])
 
     def test_new_configurations_have_no_baseline(self):
         before = regression.baseline_of(self.results(1))
-        before["efficiency_per_embree_ray"] = {}
+        before["per_embree_ray"] = {}
         self.assertEqual(regression.worsened(regression.baseline_of(self.results(1)), before)[0], [])
 
     def test_other_efforts_are_refused(self):
