@@ -120,6 +120,36 @@ TEST(GridCells, ListTheTrianglesOfTheirPointsMarginIncluded) {
   EXPECT_GT(moved_over, 100);
 }
 
+/// In cells so thin that the margin for the rounding of hits is larger than that for the rounding of the
+/// walk: points of triangles, moved by nine tenths of it, 2^-15 of the scene, lie in cells that list them.
+TEST(GridCells, ListTheTrianglesWithinTheErrorOfHits) {
+  std::vector<Triangle> line;
+  for (Triangle t : test::random_triangles(300, 0.01f, 9)) {
+    for (Vec3* v : {&t.v0, &t.v1, &t.v2}) v->y *= 1e-9f, v->z *= 1e-9f;
+    line.push_back(t);
+  }
+  const GridCells grid = build_grid_cells(line, {GridResolution::Rule::density, 4096});
+  const GridLevel& level = grid.levels.front();
+  ASSERT_EQ(level.counts[0], 4096);
+  int moved_over = 0;
+  for (std::uint32_t i = 0; i < line.size(); ++i) {
+    for (const Vec3& v : {line[i].v0, line[i].v1, line[i].v2}) {
+      for (const double way : {-0.9 * 0x1p-15, 0.9 * 0x1p-15}) {
+        const double before = (v.x - level.lo.x) * level.cells_per_unit.x;
+        const double place = before + way * (grid.hi.x - grid.lo.x) * level.cells_per_unit.x;
+        if (place < 0 || place >= level.counts[0]) continue;
+        const auto cell = static_cast<std::uint32_t>(place);
+        ASSERT_TRUE(grid.is_occupied(level, cell)) << i;
+        const GridCells::Record& record = grid.record(level, cell);
+        const auto list = grid.references.begin() + record.begin;
+        ASSERT_TRUE(std::find(list, list + record.count, i) != list + record.count) << i;
+        moved_over += std::floor(before) != std::floor(place) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(moved_over, 50);
+}
+
 /// A ball of 30k triangles that are small against the margin of cells in a box 2000 times as large: lists of
 /// a tenth of them at most, and few copies.
 TEST(GridCells, ATinyCrowdInALargeBoxComesApart) {
