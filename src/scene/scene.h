@@ -19,7 +19,8 @@
 namespace lemma {
 
 /// The parts of the model that cost something in the hot path. They are compile-time constants of the
-/// integrators: a scene pays for what it needs only.
+/// integrators: a scene pays for what it needs only, but that textures and glass come together
+/// (integrators/integrator.h).
 struct Model {
   bool specular = false;        // a reflecting triangle has ks > 0
   bool smooth_normals = false;  // a reflecting triangle has vertex normals that differ from its own
