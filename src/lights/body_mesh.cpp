@@ -88,7 +88,7 @@ std::uint32_t BodyMesh::add_leaf(std::span<const std::uint32_t> members) {
 
 std::optional<BodyMesh::Point> BodyMesh::first_hit(const Vec3& x, const Vec3d& w) const {
   if (walk) {
-    if (const auto point = walk->enter(emitters, x, w)) return point;
+    if (auto point = walk->enter(emitters, x, w)) return point;
   }
   static const BodyTrace fastest = body_traces().front();
   return fastest.first_hit(*this, x, w);

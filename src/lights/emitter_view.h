@@ -14,8 +14,8 @@ class EmitterView {
   /// Whether x lies above the emitter by more than 0.6 times its longest edge. Over the emitter cosine /
   /// distance^2 then changes by a factor of 7.4 at most, (1 + 1 / 0.6^2)^1.5, and mostly by far less, so that
   /// points uniform by area serve nearly as well as directions uniform by solid angle, and one value at the
-  /// centre as well as the formula of the angle, for less: in Cornell's box relMSE is 2 % larger than with 1.5
-  /// edges, and the time 5 % shorter.
+  /// centre as well as the formula of the angle, for less: in Cornell's box relMSE is 2 % larger than
+  /// with 1.5 edges, and the time 5 % shorter.
   [[nodiscard]] bool is_far(const Vec3& x) const { return dot(normal_, x - centre_) > kFar * size_; }
 
   /// Luminance x solid angle x cosine at a surface at x with normal n, nearly, where is_far(x); 0 only if the
