@@ -141,7 +141,7 @@ class MemoryTest(ErrorTest):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (2**32, 2**32))
         run = self.lemma("render", CORNELL_BOX, "--size", "16384x16384", "-q", preexec_fn=limit)
         self.assertEqual((run.returncode, run.stderr),
-                         (BAD_INPUT, "lemma: error: an image of 16384x16384 needs 45 GB of memory; there are 4 GB\n"
+                         (BAD_INPUT, "lemma: error: an image of 16384x16384 needs 52 GB of memory; there are 4 GB\n"
                                      "  hint: choose a smaller one with --size\n"))
 
 
