@@ -11,7 +11,7 @@ namespace lemma {
 /// How the length of a path is decided.
 enum class Roulette {
   fixed,      // survive every scattering with probability 0.6, as in the report's section 5
-  throughput  // survive with the path's own throughput, from the third scattering on
+  throughput  // survive with three times the path's throughput, at most 1, from the third scattering on
 };
 
 [[nodiscard]] std::span<const Named<Roulette>> roulettes();
