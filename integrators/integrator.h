@@ -50,7 +50,7 @@ class Integrator {
 
 struct IntegratorOptions {
   Roulette roulette = Roulette::throughput;
-  Heuristic heuristic = Heuristic::balance;               // of `mis`
+  Heuristic heuristic = Heuristic::power;                 // of `mis`
   CountedSamples counted_samples = CountedSamples::both;  // by `mis`
   int max_depth = kLastResortDepth;  // scattering events on a path at most: 1 is direct light
   bool emitters_reflect = false;     // emitters also reflect, as their materials say

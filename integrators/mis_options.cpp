@@ -4,8 +4,8 @@ namespace lemma {
 
 std::span<const Named<Heuristic>> heuristics() {
   static constexpr Named<Heuristic> table[] = {
-      {"balance", Heuristic::balance, "by density (the report's eq. (10))"},
-      {"power", Heuristic::power, "by squared density"}};
+      {"power", Heuristic::power, "by squared density"},
+      {"balance", Heuristic::balance, "by density (the report's eq. (10))"}};
   return table;
 }
 

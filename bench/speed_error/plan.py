@@ -8,7 +8,7 @@ DIMENSIONS = {
     "accel": ("embree", "grid"),
     "integrator": ("mis", "direct", "brdf", "mis-report"),
     "lights": ("tree", "projected", "solid-angle", "power", "radiance-area"),
-    "mis": ("balance", "power"),
+    "mis": ("power", "balance"),
     "sampler": ("sobol", "independent"),
 }
 # The same for options that are compared with their default alone, never in combinations.

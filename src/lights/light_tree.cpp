@@ -174,7 +174,9 @@ std::optional<LightTree::Choice> LightTree::choose(const LightQuery& at, double 
     pmf *= weights.of_child[child] / weights.sum;
     index = node.first_child + child;
   }
-  return choice(index, pmf, at.x);
+  Choice light = choice(index, pmf, at.x);
+  light.u = u;
+  return light;
 }
 
 LightTree::Choice LightTree::choice_of(const LightQuery& at, std::uint32_t emitter) const {

@@ -31,6 +31,7 @@ class LightTree {
     double pmf = 0;
     std::uint32_t emitter = 0;
     const Whole* whole = nullptr;  // then `emitter` means nothing
+    double u = 0;                  // of choose(): what the choice leaves of its number, uniform in [0, 1)
   };
 
   /// Draws a light for u uniform in [0, 1); nothing if no light can reach the surface.

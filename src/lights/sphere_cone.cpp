@@ -23,6 +23,11 @@ double SphereCone::solid_angle() const {
   return kTwoPi * one_minus_cos_;
 }
 
+bool SphereCone::holds(const Vec3d& w) const {
+  const Vec3d apart = w - axis_;
+  return 0.5 * dot(apart, apart) <= one_minus_cos_;
+}
+
 Vec3d SphereCone::sample(const Vec2& u) const {
   const double below_axis = u.x * one_minus_cos_;  // 1 - cos of the angle to the axis
   const double sine = std::sqrt(below_axis * (2 - below_axis)), phi = kTwoPi * u.y;

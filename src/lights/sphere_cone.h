@@ -26,6 +26,9 @@ class SphereCone {
   /// [sr]
   [[nodiscard]] double solid_angle() const;
 
+  /// Whether a unit direction lies within.
+  [[nodiscard]] bool holds(const Vec3d& w) const;
+
   /// Unit direction, uniform over the cone, for u uniform in [0,1)^2.
   [[nodiscard]] Vec3d sample(const Vec2& u) const;
 

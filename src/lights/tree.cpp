@@ -1,14 +1,41 @@
 #include "src/lights/light_tree.h"
+#include "src/lights/lobe_sector.h"
 #include "src/lights/sphere_cone.h"
 #include "src/lights/triangle_sampling.h"
 
 namespace lemma {
 namespace {
 
+/// A whole light as seen from a point: directions uniform over the cone of its bounding sphere, or drawn by
+/// the lobe of the surface there.
+class WholeView {
+ public:
+  WholeView(const WholeLight& light, const LightQuery& at)
+      : cone_(light.centre, light.radius, at.x), lobe_(at.reflection, cone_) {}
+
+  /// For `choice` uniform in [0, 1); nothing if the direction misses the cone.
+  [[nodiscard]] std::optional<Vec3d> sample(double choice, const Vec2& u) const {
+    if (choice >= lobe_.share()) return cone_.sample(u);
+    const Vec3d w = lobe_.sample(u);
+    return cone_.holds(w) ? std::optional(w) : std::nullopt;
+  }
+
+  [[nodiscard]] PdfSolidAngle pdf(double pmf, const Connection& connection) const {
+    const double uniform = 1 / cone_.solid_angle(), share = lobe_.share();
+    if (share == 0) return {static_cast<float>(pmf * uniform)};
+    const double by_lobe = lobe_.pdf(normalize(connection.to_light)).value;
+    return {static_cast<float>(pmf * ((1 - share) * uniform + share * by_lobe))};
+  }
+
+ private:
+  SphereCone cone_;
+  LobeSector lobe_;
+};
+
 /// A light by a tree (light_tree.h), by what the surface reflects of it, at a cost that grows with the
-/// logarithm of their number; then a direction uniform over its solid angle, or over the cone of its bounding
-/// sphere if it is a whole light. Of a whole light the sample is the emitter that the direction meets first,
-/// or nothing if it passes by.
+/// logarithm of their number; then a direction uniform over its solid angle, or that of a WholeView if it is
+/// a whole light. Of a whole light the sample is the emitter that the direction meets first, or nothing if it
+/// passes by.
 class TreeSampler final : public LightSampler {
  public:
   explicit TreeSampler(std::span<const Emitter> emitters) : emitters_(emitters), tree_(emitters) {}
@@ -25,28 +52,22 @@ class TreeSampler final : public LightSampler {
     const auto connection = connect(emitters_[emitter], at.x, Vec3d(y));
     if (!connection) return {0};
     const LightTree::Choice light = tree_.choice_of(at, emitter);
-    if (light.whole != nullptr) return whole_pdf(light.pmf, cone(*light.whole, at.x));
+    if (light.whole != nullptr) return WholeView(light.whole->body, at).pdf(light.pmf, *connection);
     const Triangle& triangle = emitters_[emitter].shape;
     if (tree_.samples_area(at.x, emitter)) return area_pdf(light.pmf, triangle, *connection);
     return triangle_pdf(light.pmf, triangle, SphericalTriangle(triangle, at.x), *connection);
   }
 
  private:
-  static SphereCone cone(const LightTree::Whole& light, const Vec3& x) {
-    return {light.body.centre, light.body.radius, x};
-  }
-
-  static PdfSolidAngle whole_pdf(double pmf, const SphereCone& cone) {
-    return {static_cast<float>(pmf / cone.solid_angle())};
-  }
-
   [[nodiscard]] std::optional<LightSample> sample_whole(const LightQuery& at, const LightTree::Choice& light,
                                                         const Vec2& u) const {
-    const SphereCone seen = cone(*light.whole, at.x);
-    const auto point = light.whole->mesh.first_hit(at.x, seen.sample(u));
+    const WholeView seen(light.whole->body, at);
+    const auto w = seen.sample(light.u, u);
+    if (!w) return std::nullopt;
+    const auto point = light.whole->mesh.first_hit(at.x, *w);
     if (!point) return std::nullopt;
     return make_sample(at, point->emitter, point->y,
-                       [&](const Connection&) { return whole_pdf(light.pmf, seen); });
+                       [&](const Connection& c) { return seen.pdf(light.pmf, c); });
   }
 
   [[nodiscard]] std::optional<LightSample> sample_emitter(const LightQuery& at,

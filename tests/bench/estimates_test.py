@@ -250,9 +250,9 @@ class PlanTest(unittest.TestCase):
     def test_all_combinations_have_an_effect(self):
         names = [c.name for c in plan.configurations(cross=True)]
         self.assertEqual(len(names), len(set(names)))
-        self.assertIn("accel grid, integrator mis-report, lights power, mis power, sampler independent", names)
+        self.assertIn("accel grid, integrator mis-report, lights power, mis balance, sampler independent", names)
         self.assertNotIn("integrator brdf, lights power", names)
-        self.assertNotIn("integrator direct, mis power", names)
+        self.assertNotIn("integrator direct, mis balance", names)
 
 
 if __name__ == "__main__":

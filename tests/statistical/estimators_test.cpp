@@ -106,7 +106,7 @@ std::vector<Estimator> all_estimators(Lobe lobe) {
   std::vector<Estimator> all;
   for (const auto& integrator : integrators()) {
     for (const auto& heuristic : heuristics()) {
-      if (heuristic.value != Heuristic::balance && !integrator.name.starts_with("mis")) continue;
+      if (heuristic.value != IntegratorOptions().heuristic && !integrator.name.starts_with("mis")) continue;
       for (const auto& sampling : lobe_samplings()) {
         // The choice is the Phong lobe's alone.
         if (lobe == Lobe::blinn_phong && sampling.value != LobeSampling::truncated) continue;

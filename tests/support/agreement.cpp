@@ -62,7 +62,7 @@ std::vector<Estimate> precise_means(const Scene& scene, Run run, double limit, s
 std::string name_of(const Configuration& c) {
   std::string name(c.accel);
   for (const std::string_view part : {c.integrator, c.lights}) name.append(1, ' ').append(part);
-  if (c.options.heuristic == Heuristic::power) name += " power-heuristic";
+  if (c.options.heuristic == Heuristic::balance) name += " balance-heuristic";
   if (c.options.roulette == Roulette::fixed) name += " fixed";
   if (c.sequence == Sequence::independent) name += " independent";
   return name;
@@ -114,8 +114,8 @@ void expect_equal_means(const Scene& scene, std::vector<Run> runs) {
 }
 
 std::vector<Run> all_estimators(std::uint32_t spp) {
-  IntegratorOptions balance, squared, fixed;
-  squared.heuristic = Heuristic::power;
+  IntegratorOptions squared, balance, fixed;
+  balance.heuristic = Heuristic::balance;
   fixed.roulette = Roulette::fixed;
   constexpr std::string_view strategies[] = {"tree", "solid-angle", "projected", "power", "radiance-area"};
   const auto samples = [&](std::string_view lights) {
@@ -127,7 +127,7 @@ std::vector<Run> all_estimators(std::uint32_t spp) {
     for (const std::string_view lights : strategies) {
       for (const std::string_view accel : {"embree", "grid"}) {
         for (const Sequence sequence : {Sequence::sobol, Sequence::independent}) {
-          for (const auto& options : {balance, squared, fixed}) {
+          for (const auto& options : {squared, balance, fixed}) {
             add({accel, "mis", lights, options, sequence}, samples(lights));
           }
         }
@@ -136,11 +136,11 @@ std::vector<Run> all_estimators(std::uint32_t spp) {
   } else {
     for (const std::string_view lights : strategies) {
       if (lights != "tree") add({"embree", "mis", lights}, samples(lights));
-      add({"embree", "mis", lights, squared}, samples(lights));
+      add({"embree", "mis", lights, balance}, samples(lights));
     }
     add({"grid", "mis", "tree"}, spp);
-    add({"grid", "mis", "power", squared, Sequence::independent}, 4 * spp);
-    add({"embree", "mis", "tree", balance, Sequence::independent}, 4 * spp);
+    add({"grid", "mis", "power", balance, Sequence::independent}, 4 * spp);
+    add({"embree", "mis", "tree", squared, Sequence::independent}, 4 * spp);
     add({"embree", "mis", "tree", fixed}, spp);
   }
   add({"embree", "direct", "tree"}, 2 * spp);

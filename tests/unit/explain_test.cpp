@@ -89,13 +89,13 @@ TEST(Explain, DensitiesAndWeightsBelongTogether) {
         ASSERT_EQ(light->densities.light.size(), light_samplers().size());
         // The point is rounded to float before the density is asked for again.
         EXPECT_NEAR(light->densities.light.front() / light->pdf, 1, 1e-3);
-        EXPECT_FLOAT_EQ(light->weight, balance_heuristic({light->pdf}, {light->densities.brdf}));
+        EXPECT_FLOAT_EQ(light->weight, power_heuristic({light->pdf}, {light->densities.brdf}));
       }
       if (const auto* emitter = std::get_if<EmitterEvent>(&event);
           emitter && !emitter->densities.light.empty()) {
         ++emitters;
         EXPECT_FLOAT_EQ(emitter->weight,
-                        balance_heuristic({emitter->densities.brdf}, {emitter->densities.light.front()}));
+                        power_heuristic({emitter->densities.brdf}, {emitter->densities.light.front()}));
       }
     }
   };

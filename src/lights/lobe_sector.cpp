@@ -1,0 +1,65 @@
+#include "src/lights/lobe_sector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lemma {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Over a cone so much narrower than the lobe, directions uniform over it are better ones anyway.
+constexpr float kNarrowest = 0.5f;
+
+}  // namespace
+
+LobeSector::LobeSector(const Reflection& reflection, const SphereCone& cone)
+    : mirror_(reflection.mirror), axis_(cone.axis()), width_(reflection.width) {
+  const auto cone_size = static_cast<float>(cone.one_minus_cos());
+  const float width = reflection.width;
+  if (reflection.peak == 0 || cone_size < kNarrowest * width) return;
+
+  // 1 - cos of the angles between mirror direction and axis, and of their sum and difference with the cone's
+  // half angle.
+  const Vec3 difference = Vec3(axis_) - reflection.mirror;
+  const float apart = std::min(0.5f * dot(difference, difference), 2.0f);
+  const float sine = std::sqrt(apart * (2 - apart)), cone_sine = std::sqrt(cone_size * (2 - cone_size));
+  const float middle = apart + cone_size - apart * cone_size, reach = sine * cone_sine;
+  beside_ = apart > cone_size;
+  const float inner = beside_ ? std::max(middle - reach, 0.0f) : 0.0f;
+  const bool holds_opposite = apart + cone_size >= 2;
+  const float outer = holds_opposite ? 2.0f : middle + reach;
+  const bool turns_around = !beside_ || cone_sine >= sine;
+  const float half_turn = turns_around ? static_cast<float>(kPi) : std::asin(cone_sine / sine);
+
+  // Both ways of sampling waste a part of what they draw: the sector what misses the cone, if the outline's
+  // mean over the cone is right; the cone where the lobe is dark: by the second moment of a lobe in its
+  // middle, all but 2 / (2 + cone / lobe).
+  const float fallen = std::exp((inner - outer) / width);
+  const float mass = width * half_turn * (1 - fallen);  // of half the sector, over the density at its edge
+  const float lobe = reflection.mean(Vec3(axis_), cone_size) - reflection.diffuse;
+  const float kept = lobe * cone_size * static_cast<float>(kPi);
+  const float drawn = reflection.peak * std::exp(-inner / width) * mass;
+  if (!(kept * (2 * width + cone_size) > 2 * width * drawn)) return;
+  inner_ = inner, fallen_ = fallen, half_turn_ = half_turn;
+  peak_density_ = 1 / (2 * double{mass});
+  share_ = lobe / (lobe + reflection.diffuse);
+}
+
+Vec3d LobeSector::sample(const Vec2& u) const {
+  const double below =
+      std::clamp(inner_ - width_ * std::log1p(double{u.x} * (fallen_ - 1)), 0.0, 2.0);  // 1 - cos
+  const double sine = std::sqrt(below * (2 - below)), phi = half_turn_ * (2 * double{u.y} - 1);
+  const Vec3d other = beside_ ? axis_ : std::abs(mirror_.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+  const Vec3d t = normalize(cross(mirror_, other)), s = cross(t, mirror_);
+  return normalize(mirror_ * (1 - below) + (s * std::cos(phi) + t * std::sin(phi)) * sine);
+}
+
+PdfSolidAngle LobeSector::pdf(const Vec3d& w) const {
+  const Vec3d difference = w - mirror_;
+  const double below = 0.5 * dot(difference, difference);
+  return {static_cast<float>(peak_density_ * std::exp((inner_ - below) / width_))};
+}
+
+}  // namespace lemma
