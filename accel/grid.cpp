@@ -19,8 +19,8 @@ class Grid final : public Accelerator {
     if (cells_.levels.empty()) return std::nullopt;
     const ShearedRay sheared(ray);
     Hit best = no_hit(sheared);
-    if (starts_far_away(cells_, ray)) {
-      closest_hit_from_afar(cells_, ray, sheared, best);
+    if (needs_careful_walk(cells_, ray)) {
+      careful_closest_hit(cells_, ray, sheared, best);
     } else {
       trace_.closest(cells_, ray, sheared, best);
     }
@@ -30,7 +30,7 @@ class Grid final : public Accelerator {
 
   bool occluded(const Ray& ray) const override {
     if (cells_.levels.empty()) return false;
-    if (starts_far_away(cells_, ray)) return closest_hit(ray).has_value();
+    if (needs_careful_walk(cells_, ray)) return closest_hit(ray).has_value();
     return trace_.any(cells_, ray, ShearedRay(ray));
   }
 

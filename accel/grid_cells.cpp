@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "accel/grid_boxes.h"
 #include "accel/grid_overlap.h"
 #include "src/core/bounds.h"
 #include "src/core/error_bound.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kMaxCells = 1u << 28;  // a cell's index fits an int
 
-constexpr std::size_t kCrowd = 200;    // triangles of a cell that are worth a grid of their own
+constexpr std::size_t kCrowd = 1000;   // triangles of a cell that are worth a grid of their own
 constexpr double kChildDensity = 0.5;  // its cells a triangle
 constexpr double kMaxCopies = 8;       // its references a triangle; more: they do not come apart
 constexpr int kMaxDepth = 3;           // grids within grids
@@ -34,6 +35,9 @@ constexpr double kCellMargin = 1.0 / 256;
 /// further away are not walked (grid_far.h). 2^-15 of the scene: small against cells.
 constexpr double kTrustedSizes = 64;
 constexpr double kReachMargin = kTrustedSizes * kPlaneError * kRoundoff;
+
+/// Boxes of smaller scenes could lose their margins to underflow: all rays are walked carefully.
+constexpr double kSmallestScene = 0x1p-60;
 
 /// Cells are at least so many of these margins thick: thinner ones would mostly list their neighbours'
 /// triangles.
@@ -301,21 +305,28 @@ void split_crowds(const Content& content, Part& part, int depth) {
 /// Lists of references that are equal share their memory: cells that one large triangle passes through.
 class DistinctLists {
  public:
-  /// A record for the list, which is appended to `references` unless an equal one is known.
+  /// A record for the list, which is appended to `references` unless an equal one is known. Lists of several
+  /// parts are not shared: their boxes are those of one cell.
   GridCells::Record add(std::span<const std::uint32_t> list, std::vector<std::uint32_t>& references) {
-    const GridCells::Record record{static_cast<std::uint32_t>(references.size()),
-                                   static_cast<std::uint32_t>(list.size())};
     std::uint64_t hash = list.size();
     for (const std::uint32_t i : list) hash = (hash ^ i) * 0x9E3779B97F4A7C15u, hash ^= hash >> 32;
     GridCells::Record& known = known_[hash % known_.size()];
-    if (known.count == list.size() && std::equal(list.begin(), list.end(), references.begin() + known.begin))
+    if (known.count == list.size() && list.size() <= GridCells::kFew &&
+        std::equal(list.begin(), list.end(), references.begin() + known.begin))
       return known;
+    references.resize(references.size() + GridCells::box_places(list.size()));
+    known.begin = static_cast<std::uint32_t>(references.size());
+    known.count = static_cast<std::uint32_t>(list.size());
     references.insert(references.end(), list.begin(), list.end());
-    return known = record;
+    all_.push_back(known);
+    return known;
   }
 
+  [[nodiscard]] std::span<const GridCells::Record> all() const { return all_; }
+
  private:
-  std::vector<GridCells::Record> known_{4096, GridCells::Record{0, 0}};  // the last with its hash
+  std::vector<GridCells::Record> known_{4096, GridCells::Record{}};  // the last with its hash
+  std::vector<GridCells::Record> all_;
 };
 
 /// Appends the level of the part, without its children, and the records of its occupied cells. `children`
@@ -331,7 +342,9 @@ void append_level(const Part& part, std::uint32_t children, DistinctLists& lists
     if (list.empty()) continue;
     grid.occupied.back().bits |= 1u << i % 32;
     if (next < part.crowded.size() && part.crowded[next] == i) {
-      grid.records.push_back({children + static_cast<std::uint32_t>(next++), GridCells::Record::kLevel});
+      GridCells::Record& record = grid.records.emplace_back();
+      record.begin = children + static_cast<std::uint32_t>(next++);
+      record.count = GridCells::Record::kLevel;
     } else {
       grid.records.push_back(lists.add(list, grid.references));
     }
@@ -339,29 +352,28 @@ void append_level(const Part& part, std::uint32_t children, DistinctLists& lists
 }
 
 /// The part and all below it, level by level.
-void append(const Part& root, GridCells& grid) {
+void append(const Part& root, DistinctLists& lists, GridCells& grid) {
   std::vector<const Part*> parts{&root};
-  DistinctLists lists;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     append_level(*parts[i], static_cast<std::uint32_t>(parts.size()), lists, grid);
     for (const Part& child : parts[i]->children) parts.push_back(&child);
   }
 }
 
-void pack_vertices(std::span<const Triangle> triangles, GridCells& grid) {
-  grid.vertices.resize(9 * grid.references.size() + GridCells::kOverread);
-  parallel_chunks(grid.records.size(), [&](std::size_t i) {
-    const auto [begin, count] = grid.records[i];
-    if (count == GridCells::Record::kLevel) return;
-    float* out = grid.vertices.data() + 9ull * begin;
-    for (std::size_t j = 0; j < count; ++j) {
-      const Triangle& t = triangles[grid.references[begin + j]];
+void pack_vertices(std::span<const Triangle> triangles, std::span<const GridCells::Record> lists,
+                   GridCells& grid) {
+  parallel_chunks(lists.size(), [&](std::size_t i) {
+    const GridCells::Record& list = lists[i];
+    for (std::size_t j = 0; j < list.count; ++j) {
+      const std::size_t in_part = j % GridCells::kPart, part = j - in_part;
+      const std::size_t size = std::min(GridCells::kPart, list.count - part);
+      float* out = grid.vertices.data() + 9 * (list.begin + part) + in_part;
+      const Triangle& t = triangles[grid.references[list.begin + j]];
       const std::array<float, 9> coordinates{t.v0.x, t.v0.y, t.v0.z, t.v1.x, t.v1.y,
                                              t.v1.z, t.v2.x, t.v2.y, t.v2.z};
-      for (std::size_t a = 0; a < 9; ++a) out[a * count + j] = coordinates[a];
+      for (std::size_t a = 0; a < 9; ++a) out[a * size] = coordinates[a];
     }
   });
-  grid.references.resize(grid.references.size() + GridCells::kOverread);
 }
 
 }  // namespace
@@ -409,14 +421,21 @@ GridCells build_grid_cells(std::span<const Triangle> triangles, const GridResolu
   const double pad = 16 * kRoundoff * (reach + std::max(max_norm(lo), max_norm(hi)));
   std::vector<std::uint32_t> all(triangles.size());
   std::iota(all.begin(), all.end(), 0u);
-  grid.trusted_distance = kTrustedSizes * reach;
+  if (reach >= kSmallestScene) {
+    grid.trusted_lo = Vec3(hi - Vec3d(kTrustedSizes * reach));
+    grid.trusted_hi = Vec3(lo + Vec3d(kTrustedSizes * reach));
+  }
   grid.lo = lo;
   grid.hi = hi;
   const Content scene{triangles, all, lo - Vec3d(pad), hi + Vec3d(pad), reach};
   Part part = sort_in(scene, target_cells(resolution, triangles, hi - lo));
   split_crowds(scene, part, 0);
-  append(part, grid);
-  pack_vertices(triangles, grid);
+  DistinctLists lists;
+  append(part, lists, grid);
+  grid.references.resize(grid.references.size() + GridCells::kOverread);
+  grid.vertices.resize(9 * grid.references.size());
+  fit_boxes(triangles, {kCellMargin, kReachMargin * reach}, grid);
+  pack_vertices(triangles, lists.all(), grid);
   return grid;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -39,20 +40,23 @@ struct GridCells {
   struct Word {
     std::uint32_t bits, before;
   };
-  /// An occupied cell: a list of `count` references, or the grid levels[begin] if count is kLevel.
-  struct Record {
+  /// An occupied cell: a list of `count` references, or the grid levels[begin] if count is kLevel. The box
+  /// holds the parts of its triangles that lie in the cell: rays that miss it need not look at the list.
+  struct alignas(32) Record {
     static constexpr std::uint32_t kLevel = 0xFFFFFFFFu;
-    std::uint32_t begin, count;
+    Vec3 lo{0};
+    std::uint32_t begin = 0;
+    Vec3 hi{0};
+    std::uint32_t count = 0;
   };
 
   std::vector<GridLevel> levels;          // the whole scene first; none if there are no triangles
   std::vector<Word> occupied;             // of the levels, one after the other
   std::vector<Record> records;            // of the occupied cells, in their order
-  std::vector<std::uint32_t> references;  // triangle indices, ascending within a list
-  std::vector<float> vertices;            // of the references, list by list: see packed()
-  /// Between the origins of rays and the scene's furthest corner, in coordinates: hits of rays that start so
-  /// far away err by no more than the cells' margin.
-  double trusted_distance = 0;
+  std::vector<std::uint32_t> references;  // triangle indices, list by list
+  std::vector<float> vertices;            // of the references, see packed()
+  /// Where rays may start: hits of those that start further away err by more than the cells' margin.
+  Vec3 trusted_lo{0}, trusted_hi{0};
   Vec3d lo{0}, hi{0};  // the scene
 
   [[nodiscard]] bool is_occupied(const GridLevel& level, std::uint32_t cell) const {
@@ -60,24 +64,50 @@ struct GridCells {
   }
   /// @param cell  an occupied one
   [[nodiscard]] const Record& record(const GridLevel& level, std::uint32_t cell) const {
-    const Word& word = occupied[level.words + cell / 32];
-    const std::uint32_t below = word.bits & ((1u << cell % 32) - 1);
-    return records[word.before + static_cast<std::uint32_t>(__builtin_popcount(below))];
+    return records[place(level, cell)];
+  }
+  [[nodiscard]] Record& record(const GridLevel& level, std::uint32_t cell) {
+    return records[place(level, cell)];
   }
 
-  /// The vertices of a cell's list as nine arrays of its length, v0.x v0.y v0.z v1.x ... v2.z. Reading up to
-  /// kOverread floats past the last array is safe, and as many indices past the last list.
-  [[nodiscard]] const float* packed(const Record& list) const { return vertices.data() + 9ull * list.begin; }
+  /// A list is stored in parts of so many triangles and a last one of the rest.
+  static constexpr std::size_t kPart = 16;
+  /// Up to so many are all tested: boxes of their parts took longer.
+  static constexpr std::size_t kFew = 48;
+  static constexpr std::size_t part_count(std::size_t triangles) { return (triangles + kPart - 1) / kPart; }
+  /// Places of nine floats that a list's parts_boxes() take, in `vertices` before it; the same places in
+  /// `references` hold 0.
+  static constexpr std::size_t box_places(std::size_t triangles) {
+    return triangles <= kFew ? 0 : (6 * part_count(triangles) + 8) / 9;
+  }
+
+  /// The vertices of a part of n triangles that begins with the first of a list, or the kPart-th, and so on:
+  /// nine arrays of length n, v0.x v0.y v0.z v1.x ... v2.z. Reading up to kOverread floats past the last
+  /// array is safe, and as many indices past the last list.
+  [[nodiscard]] const float* packed(std::size_t reference) const { return vertices.data() + 9 * reference; }
   static constexpr std::size_t kOverread = 16;
+
+  /// Where a list has more than one part, their boxes: six arrays, lo.x lo.y lo.z hi.x hi.y hi.z.
+  [[nodiscard]] const float* part_boxes(const Record& list) const {
+    return vertices.data() + 9 * (list.begin - box_places(list.count));
+  }
 
   /// Triangle i of a cell's list.
   [[nodiscard]] Triangle triangle(const Record& list, std::size_t i) const {
-    const float* p = packed(list) + i;
-    const std::size_t n = list.count;
+    const std::size_t part = i - i % kPart, n = std::min(kPart, list.count - part);
+    const float* p = packed(list.begin + part) + i % kPart;
     return {{p[0], p[n], p[2 * n]}, {p[3 * n], p[4 * n], p[5 * n]}, {p[6 * n], p[7 * n], p[8 * n]}};
   }
 
   [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  /// Of an occupied cell's record.
+  [[nodiscard]] std::size_t place(const GridLevel& level, std::uint32_t cell) const {
+    const Word& word = occupied[level.words + cell / 32];
+    const std::uint32_t below = word.bits & ((1u << cell % 32) - 1);
+    return word.before + static_cast<std::uint32_t>(__builtin_popcount(below));
+  }
 };
 
 /// Numbers of cells an axis so that cells are about cubes and about `target` in all. An axis too short for

@@ -68,11 +68,7 @@ class CarefulWalk {
 
 }  // namespace
 
-bool starts_far_away(const GridCells& grid, const Ray& ray) {
-  return largest_distance(grid, ray) > grid.trusted_distance;
-}
-
-void closest_hit_from_afar(const GridCells& grid, const Ray& ray, const ShearedRay& sheared, Hit& best) {
+void careful_closest_hit(const GridCells& grid, const Ray& ray, const ShearedRay& sheared, Hit& best) {
   CarefulWalk(grid, ray, sheared, best).visit(grid.levels.front());
 }
 

@@ -1,5 +1,6 @@
 #include "accel/grid_trace.h"
 
+#include <array>
 #include <bit>
 
 #include "accel/grid_walk.h"
@@ -149,24 +150,123 @@ class BlockTest {
   const Floats sx_, sy_, ox_, oy_, oz_;
 };
 
+/// Whether a ray may pass the box of a record within its range. Source: Kay, Kajiya, Ray Tracing Complex
+/// Scenes, SIGGRAPH 1986. Slabs err by 3 roundings of the distance between the ray's origin and the box: the
+/// box is wider by more (fit_boxes). Where a ray in the plane of a slab makes 0 times infinity, that width
+/// is what lies between it and all triangles, and either answer is right.
+#if HWY_TARGET == HWY_SCALAR
+class BoxTest {
+ public:
+  explicit BoxTest(const Ray& ray) : origin_(ray.origin), pace_(Vec3(1) / ray.direction), t_min_(ray.t_min) {}
+
+  bool may_pass(const GridCells::Record& cell, float t_max) const {
+    const Vec3 a = (cell.lo - origin_) * pace_, b = (cell.hi - origin_) * pace_;
+    float enter = t_min_, leave = t_max;
+    for (int k = 0; k < 3; ++k) {
+      enter = std::max(enter, std::min(a[k], b[k]));
+      leave = std::min(leave, std::max(a[k], b[k]));
+    }
+    return !(enter > leave);
+  }
+
+ private:
+  const Vec3 origin_, pace_;
+  const float t_min_;
+};
+#else
+class BoxTest {
+ public:
+  HWY_INLINE explicit BoxTest(const Ray& ray)
+      : origin_(load(ray.origin)), pace_(hn::Div(hn::Set(d, 1), load(ray.direction))), t_min_(ray.t_min) {}
+
+  HWY_INLINE bool may_pass(const GridCells::Record& cell, float t_max) const {
+    const Floats a = hn::Mul(hn::Sub(hn::Load(d, &cell.lo.x), origin_), pace_);
+    const Floats b = hn::Mul(hn::Sub(hn::Load(d, &cell.hi.x), origin_), pace_);
+    const auto axes = hn::FirstN(d, 3);
+    const Floats enter = hn::IfThenElse(axes, hn::Min(a, b), hn::Set(d, t_min_));
+    Floats leave = hn::IfThenElse(axes, hn::Max(a, b), hn::Set(d, t_max));
+    leave = hn::Min(leave, hn::Shuffle1032(leave));
+    leave = hn::Min(leave, hn::Shuffle2301(leave));
+    return hn::AllFalse(d, hn::Gt(enter, leave));
+  }
+
+ private:
+  using D = hn::FixedTag<float, 4>;
+  using Floats = hn::Vec<D>;
+  static constexpr D d{};
+  static HWY_INLINE Floats load(const Vec3& v) {
+    alignas(16) const float lanes[4] = {v.x, v.y, v.z, 1};
+    return hn::Load(d, lanes);
+  }
+
+  const Floats origin_, pace_;
+  const float t_min_;
+};
+#endif
+
+/// Which boxes of parts a ray may pass within its range, as many at a time as there are lanes.
+class PartTest {
+ public:
+  HWY_INLINE explicit PartTest(const Ray& ray) : ray_(ray) {}
+  static HWY_INLINE std::size_t lanes() { return hn::Lanes(d); }
+
+  /// Bit i is set for box i of the first `count`, of which those of the lanes are tested.
+  HWY_INLINE std::uint64_t may_pass(const float* boxes, std::size_t size, std::size_t count,
+                                    float t_max) const {
+    auto enter = hn::Set(d, ray_.t_min), leave = hn::Set(d, t_max);
+    for (int k = 0; k < 3; ++k) {
+      const auto origin = hn::Set(d, ray_.origin[k]), pace = hn::Set(d, 1 / ray_.direction[k]);
+      const float* planes = boxes + static_cast<std::size_t>(k) * size;
+      const auto a = hn::Mul(hn::Sub(hn::LoadU(d, planes), origin), pace);
+      const auto b = hn::Mul(hn::Sub(hn::LoadU(d, planes + 3 * size), origin), pace);
+      enter = hn::Max(enter, hn::Min(a, b));
+      leave = hn::Min(leave, hn::Max(a, b));
+    }
+    return bits_of(d, hn::AndNot(hn::Gt(enter, leave), hn::FirstN(d, count)));
+  }
+
+ private:
+  static constexpr hn::CappedTag<float, 16> d{};
+  const Ray& ray_;
+};
+
 /// Tests the triangles of cells, many at a time: hits are those of brute force to the bit.
 template <bool kAny>
 class CellTest {
  public:
-  HWY_INLINE explicit CellTest(const ShearedRay& ray) : ray_(ray), few_(ray), many_(ray) {}
+  HWY_INLINE CellTest(const Ray& ray, const ShearedRay& sheared)
+      : ray_(sheared), parts_(ray), few_(sheared), many_(sheared) {}
 
-  /// intersect() with each triangle of the cell's list. Sixteen lanes took longer for lists of a few.
+  /// intersect() with the triangles of the cell's list.
   HWY_INLINE bool operator()(const GridCells& grid, const GridCells::Record& list, Hit& best) const {
-    return list.count <= 8 ? test(few_, grid, list, best) : test(many_, grid, list, best);
+    if (list.count <= 8) return test(few_, grid, list.begin, list.count, best);
+    bool hit = false;
+    if (list.count <= GridCells::kFew) {
+      for (std::size_t i = 0; i < list.count; i += GridCells::kPart) {
+        hit |= test(many_, grid, list.begin + i, std::min(GridCells::kPart, list.count - i), best);
+        if (kAny && hit) return true;
+      }
+      return hit;
+    }
+    const std::size_t parts = GridCells::part_count(list.count);
+    const float* boxes = grid.part_boxes(list);
+    for (std::size_t first = 0; first < parts; first += parts_.lanes()) {
+      for (std::uint64_t rest = parts_.may_pass(boxes + first, parts, parts - first, best.t); rest != 0;
+           rest &= rest - 1) {
+        const std::size_t i = GridCells::kPart * (first + static_cast<std::size_t>(std::countr_zero(rest)));
+        hit |= test(many_, grid, list.begin + i, std::min(GridCells::kPart, list.count - i), best);
+        if (kAny && hit) return true;
+      }
+    }
+    return hit;
   }
 
  private:
   template <class Block>
-  HWY_INLINE bool test(const Block& block, const GridCells& grid, const GridCells::Record& list,
+  HWY_INLINE bool test(const Block& block, const GridCells& grid, std::size_t begin, std::size_t size,
                        Hit& best) const {
-    const std::size_t size = list.count;
-    const float* packed = grid.packed(list);
-    const std::uint32_t* triangles = grid.references.data() + list.begin;
+    const float* packed = grid.packed(begin);
+    const std::uint32_t* triangles = grid.references.data() + begin;
     bool hit = false;
     for (std::size_t i = 0; i < size; i += hn::Lanes(block.kLanes)) {
       const auto [may_hit, hits] = block.find(packed + i, size, size - i, best.t);
@@ -193,6 +293,7 @@ class CellTest {
   }
 
   const ShearedRay& ray_;
+  const PartTest parts_;
   const BlockTest<kAny, 8> few_;
   const BlockTest<kAny, GridCells::kOverread> many_;
 };
@@ -212,6 +313,7 @@ class Slices {
   using Ints = hn::Vec<I>;
   static constexpr F f{};
   static constexpr I n{};
+  static constexpr std::size_t kMostCells = 48;
   static HWY_INLINE int lanes() { return static_cast<int>(hn::Lanes(f)); }
 
   /// Finds the occupied cells of the slices from `first` on that the ray enters at s <= reach.
@@ -290,8 +392,8 @@ class Slices {
     return 16 * (bit % 4) + bit / 4;
   }
 
-  alignas(64) int cells_[48];
-  alignas(64) float enter_[48];
+  alignas(64) int cells_[kMostCells];
+  alignas(64) float enter_[kMostCells];
   std::uint64_t bits_;
 };
 
@@ -316,7 +418,7 @@ template <bool kAny>
 class Walk {
  public:
   HWY_INLINE Walk(const GridCells& grid, const Ray& ray, const ShearedRay& sheared, Hit& best)
-      : grid_(grid), ray_(ray), test_(sheared), best_(best) {}
+      : grid_(grid), ray_(ray), test_(ray, sheared), box_(ray), best_(best) {}
 
   /// Through one level and those of its cells; says whether there is a hit, if any will do.
   bool through(const GridLevel& level) {
@@ -325,18 +427,38 @@ class Walk {
     bool hit = false;
     float reach = crossing.end;
     for (int first = 0; first < crossing.count && crossing.begins(first) <= reach; first += Slices::lanes()) {
-      for (Slices slices(grid_.occupied.data() + level.words, crossing, first, reach);
-           !slices.done() && slices.enter() <= reach; slices.next()) {
-        if (!visit(grid_.record(level, slices.cell()))) continue;
-        if (kAny) return true;
-        hit = true;
-        reach = crossing.reach(best_.t);
+      Slices slices(grid_.occupied.data() + level.words, crossing, first, reach);
+      if constexpr (kAny) {
+        if (hits_any(level, slices)) return true;
+      } else {
+        for (; !slices.done() && slices.enter() <= reach; slices.next()) {
+          const GridCells::Record& cell = grid_.record(level, slices.cell());
+          if (!box_.may_pass(cell, best_.t) || !visit(cell)) continue;
+          hit = true;
+          reach = crossing.reach(best_.t);
+        }
       }
     }
     return hit;
   }
 
  private:
+  /// Tests the boxes of all cells first: which rays pass is hard to predict, and most such rays get to the
+  /// last cell. The closest hit is in one of the first.
+  HWY_INLINE bool hits_any(const GridLevel& level, Slices& slices) {
+    std::array<const GridCells::Record*, Slices::kMostCells> passed;
+    std::size_t count = 0;
+    for (; !slices.done(); slices.next()) {
+      const GridCells::Record& cell = grid_.record(level, slices.cell());
+      passed[count] = &cell;
+      count += box_.may_pass(cell, best_.t) ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (visit(*passed[i])) return true;
+    }
+    return false;
+  }
+
   HWY_INLINE bool visit(const GridCells::Record& cell) {
     if (cell.count == GridCells::Record::kLevel) return through(grid_.levels[cell.begin]);
     return tested_.is_new(cell.begin) && test_(grid_, cell, best_);
@@ -345,6 +467,7 @@ class Walk {
   const GridCells& grid_;
   const Ray& ray_;
   const CellTest<kAny> test_;
+  const BoxTest box_;
   Hit& best_;
   LastLists tested_;
 };

@@ -75,10 +75,10 @@ std::optional<std::uint32_t> occupied_cell_at(const GridCells& grid, const GridL
   return grid.is_occupied(level, cell) ? std::optional(cell) : std::nullopt;
 }
 
-/// A scene's level and others: 3000 triangles in 1000 cells, of which 2000 in a hundredth of the volume.
+/// A scene's level and others: 11,000 triangles in 1000 cells, of which 10,000 in a hundredth of the volume.
 GridCells grid_of_levels(std::vector<Triangle>& triangles) {
   triangles = test::random_triangles(1000, 0.05f, 4);
-  for (Triangle t : test::random_triangles(2000, 0.05f, 7)) {
+  for (Triangle t : test::random_triangles(10000, 0.02f, 7)) {
     t = {t.v0 * 0.2f, t.v1 * 0.2f, t.v2 * 0.2f};
     triangles.push_back(t);
   }
@@ -148,6 +148,69 @@ TEST(GridCells, ListTheTrianglesWithinTheErrorOfHits) {
     }
   }
   EXPECT_GT(moved_over, 50);
+}
+
+/// The part of the list that holds triangle i.
+std::size_t part_with(const GridCells& grid, const GridCells::Record& list, std::uint32_t i) {
+  const auto begin = grid.references.begin() + list.begin;
+  return static_cast<std::size_t>(std::find(begin, begin + list.count, i) - begin) / GridCells::kPart;
+}
+
+/// Points of triangles, moved by the most that hits err, 2^-15 of the scene, lie in the box of the cell and
+/// in that of the part of its list.
+TEST(GridCells, BoxesHoldTheirTriangles) {
+  std::vector<Triangle> triangles = test::random_triangles(3000, 0.2f, 4);
+  const GridCells grid = build_grid_cells(triangles, {GridResolution::Rule::density, 64});
+  const GridLevel& level = grid.levels.front();
+  const double error = max_norm(grid.hi - grid.lo) * 0x1p-15;
+  int with_parts = 0;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    Sampler random(8, i, 0);
+    for (int j = 0; j < 20; ++j) {
+      const auto [b1, b2] = uniform_triangle(random.next_2d());
+      const Vec3d p = point_at(triangles[i], b1, b2);
+      const auto cell = occupied_cell_at(grid, level, p);
+      if (!cell) continue;
+      const GridCells::Record& record = grid.record(level, *cell);
+      ASSERT_NE(record.count, GridCells::Record::kLevel);
+      const std::size_t parts = GridCells::part_count(record.count);
+      const float* boxes = GridCells::box_places(record.count) == 0
+                               ? nullptr
+                               : grid.part_boxes(record) + part_with(grid, record, i);
+      with_parts += boxes == nullptr ? 0 : 1;
+      for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        ASSERT_LE(record.lo[k], p[k] - error) << i;
+        ASSERT_GE(record.hi[k], p[k] + error) << i;
+        if (boxes == nullptr) continue;
+        ASSERT_LE(boxes[axis * parts], p[k] - error) << i;
+        ASSERT_GE(boxes[(axis + 3) * parts], p[k] + error) << i;
+      }
+    }
+  }
+  EXPECT_GT(with_parts, 10000);
+}
+
+/// The boxes of a grid's cells lie in that of the cell that holds it.
+TEST(GridCells, BoxesOfGridsHoldThoseOfTheirCells) {
+  std::vector<Triangle> triangles;
+  const GridCells grid = grid_of_levels(triangles);
+  const auto inner = std::find_if(grid.records.begin(), grid.records.end(), [](const GridCells::Record& r) {
+    return r.count == GridCells::Record::kLevel;
+  });
+  ASSERT_NE(inner, grid.records.end());
+  const GridLevel& level = grid.levels[inner->begin];
+  int cells = 0;
+  for (std::uint32_t i = 0; i < level.cell_count(); ++i) {
+    if (!grid.is_occupied(level, i)) continue;
+    const GridCells::Record& part = grid.record(level, i);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LE(inner->lo[k], part.lo[k]);
+      EXPECT_GE(inner->hi[k], part.hi[k]);
+    }
+    ++cells;
+  }
+  EXPECT_GT(cells, 50);
 }
 
 /// A ball of 30k triangles that are small against the margin of cells in a box 2000 times as large: lists of
