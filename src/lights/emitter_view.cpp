@@ -16,6 +16,7 @@ EmitterView::EmitterView(const Emitter& emitter)
       power_(static_cast<float>(double{luminance(emitter.radiance)} * area(emitter.shape))) {
   const Triangle& t = emitter.shape;
   size_ = std::max({length(t.v1 - t.v0), length(t.v2 - t.v1), length(t.v0 - t.v2)});
+  far_ = kFar * size_;
 }
 
 double EmitterView::far_importance(const Vec3& x, const Vec3& n) const {

@@ -11,22 +11,30 @@ class EmitterView {
  public:
   explicit EmitterView(const Emitter& emitter);
 
+  /// Of a parallelogram.
+  /// @param diagonal  its longest
+  /// @param power     luminance x area
+  EmitterView(const Vec3& centre, const Vec3& normal, float diagonal, float power)
+      : centre_(centre), normal_(normal), size_(diagonal), far_(kQuadFar * diagonal), power_(power) {}
+
   /// Whether x lies above the emitter by more than 0.6 times its longest edge. Over the emitter cosine /
   /// distance^2 then changes by a factor of 7.4 at most, (1 + 1 / 0.6^2)^1.5, and mostly by far less, so that
   /// points uniform by area serve nearly as well as directions uniform by solid angle, and one value at the
-  /// centre as well as the formula of the angle, for less: in Cornell's box relMSE is 2 % larger than
-  /// with 1.5 edges, and the time 5 % shorter.
-  [[nodiscard]] bool is_far(const Vec3& x) const { return dot(normal_, x - centre_) > kFar * size_; }
+  /// centre as well as the formula of the angle, for less: in Cornell's box relMSE is 2 % larger than with
+  /// 1.5 edges, and the time 5 % shorter. Above a parallelogram 0.2 diagonals will do: there points are
+  /// spread better, over one square, and relMSE is 0.2 % larger than with 0.6, at 3 % fewer instructions.
+  [[nodiscard]] bool is_far(const Vec3& x) const { return dot(normal_, x - centre_) > far_; }
 
   /// Luminance x solid angle x cosine at a surface at x with normal n, nearly, where is_far(x); 0 only if the
   /// emitter lies below the horizon.
   [[nodiscard]] double far_importance(const Vec3& x, const Vec3& n) const;
 
  private:
-  static constexpr float kFar = 0.6f;
+  static constexpr float kFar = 0.6f, kQuadFar = 0.2f;
 
   Vec3 centre_, normal_;
-  float size_;   // longest edge
+  float size_;   // longest edge or diagonal
+  float far_;    // height
   float power_;  // luminance x area
 };
 

@@ -9,8 +9,9 @@ namespace lemma {
 /// Something that a leaf of the tree under construction stands for.
 struct LightItem {
   LightBounds bounds;
-  std::uint32_t index = 0;  // of a whole light or of an emitter ...
-  bool whole = false;       // ... as this says
+  enum class Kind { emitter, whole, quad };
+  Kind kind = Kind::emitter;
+  std::uint32_t index = 0;  // among those of its kind
 };
 
 /// Sorts two or more items into those of a node's first and second child and returns how many the first one

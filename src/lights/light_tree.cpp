@@ -18,17 +18,23 @@ class LightTree::Builder {
   explicit Builder(LightTree& tree) : tree_(tree) {}
 
   void build() {
-    std::vector<bool> in_whole(tree_.emitters_.size(), false);
+    std::vector<bool> alone(tree_.emitters_.size(), true);
     std::vector<LightItem> items;
     for (std::uint32_t w = 0; w < tree_.wholes_.size(); ++w) {
       const auto& emitters = tree_.wholes_[w].body.emitters;
-      for (const std::uint32_t e : emitters) in_whole[e] = true;
+      for (const std::uint32_t e : emitters) alone[e] = false;
       LightBounds bounds = bounds_of(items_of(emitters));
       bounds.power /= kSurfaceToSilhouette;
-      items.push_back({bounds, w, true});
+      items.push_back({bounds, LightItem::Kind::whole, w});
+    }
+    tree_.quads_ = find_quad_lights(tree_.emitters_, alone);
+    for (std::uint32_t q = 0; q < tree_.quads_.size(); ++q) {
+      const auto& emitters = tree_.quads_[q].emitters();
+      for (const std::uint32_t e : emitters) alone[e] = false;
+      items.push_back({bounds_of(items_of(emitters)), LightItem::Kind::quad, q});
     }
     for (std::uint32_t e = 0; e < tree_.emitters_.size(); ++e) {
-      if (!in_whole[e]) items.push_back({LightBounds(tree_.emitters_[e]), e, false});
+      if (alone[e]) items.push_back({LightBounds(tree_.emitters_[e]), LightItem::Kind::emitter, e});
     }
     tree_.places_.resize(tree_.emitters_.size());
     tree_.nodes_.emplace_back(bounds_of(items));
@@ -41,7 +47,8 @@ class LightTree::Builder {
 
   [[nodiscard]] std::vector<LightItem> items_of(std::span<const std::uint32_t> emitters) const {
     std::vector<LightItem> items;
-    for (const std::uint32_t e : emitters) items.push_back({LightBounds(tree_.emitters_[e]), e, false});
+    for (const std::uint32_t e : emitters)
+      items.push_back({LightBounds(tree_.emitters_[e]), LightItem::Kind::emitter, e});
     return items;
   }
 
@@ -82,15 +89,26 @@ class LightTree::Builder {
   }
 
   void build_single(std::uint32_t node, const LightItem& item) {
-    if (item.whole) {
-      tree_.nodes_[node].whole = item.index;
-      for (const std::uint32_t e : tree_.wholes_[item.index].body.emitters) tree_.places_[e].whole = node;
-      std::vector<LightItem> parts = items_of(tree_.wholes_[item.index].body.emitters);
-      build(node, parts);
-    } else {
-      tree_.nodes_[node].emitter = item.index;
-      tree_.places_[item.index].leaf = node;
+    switch (item.kind) {
+      case LightItem::Kind::emitter:
+        tree_.nodes_[node].emitter = item.index;
+        tree_.places_[item.index].leaf = node;
+        return;
+      case LightItem::Kind::whole:
+        tree_.nodes_[node].whole = item.index;
+        build_group(node, tree_.wholes_[item.index].body.emitters);
+        return;
+      case LightItem::Kind::quad:
+        tree_.nodes_[node].quad = item.index;
+        build_group(node, tree_.quads_[item.index].emitters());
+        return;
     }
+  }
+
+  void build_group(std::uint32_t node, std::span<const std::uint32_t> emitters) {
+    for (const std::uint32_t e : emitters) tree_.places_[e].group = node;
+    std::vector<LightItem> parts = items_of(emitters);
+    build(node, parts);
   }
 
   LightTree& tree_;
@@ -108,6 +126,7 @@ LightTree::LightTree(std::span<const Emitter> emitters)
 /// Whether the node is a light by itself as seen from x.
 bool LightTree::is_light(const Node& node, const Vec3& x) const {
   if (node.children == 0) return true;
+  if (node.quad != kNone) return quads_[node.quad].view().is_far(x);
   if (node.whole == kNone) return false;
   const WholeLight& whole = wholes_[node.whole].body;
   return SphereCone::can_be_sampled(whole.centre, whole.radius, x);
@@ -134,16 +153,21 @@ double LightTree::importance(const Node& node, const LightQuery& at) const {
 
 /// Of a node that is no whole light.
 double LightTree::irradiance_from(const Node& node, const LightQuery& at) const {
+  if (node.quad != kNone && is_light(node, at.x)) return quads_[node.quad].view().far_importance(at.x, at.n);
   if (node.children != 0) return node.importance(at.x, at.n);
   const EmitterView& view = views_[node.emitter];
   return view.is_far(at.x) ? view.far_importance(at.x, at.n)
                            : near_importance(emitters_[node.emitter], at.x, at.n);
 }
 
-LightTree::Choice LightTree::choice(std::uint32_t index, double pmf, const Vec3& x) const {
+/// Of a node that is a light as seen from where the choice is made.
+LightTree::Choice LightTree::choice(std::uint32_t index, double pmf) const {
   const Node& node = nodes_[index];
-  const bool whole = node.whole != kNone && is_light(node, x);
-  return {pmf, node.emitter, whole ? &wholes_[node.whole] : nullptr};
+  Choice light{.pmf = pmf, .emitter = node.emitter};
+  if (node.children == 0) return light;
+  if (node.whole != kNone) light.whole = &wholes_[node.whole];
+  if (node.quad != kNone) light.quad = &quads_[node.quad];
+  return light;
 }
 
 LightTree::Weights LightTree::weigh_children(const Node& node, const LightQuery& at) const {
@@ -174,23 +198,23 @@ std::optional<LightTree::Choice> LightTree::choose(const LightQuery& at, double 
     pmf *= weights.of_child[child] / weights.sum;
     index = node.first_child + child;
   }
-  Choice light = choice(index, pmf, at.x);
+  Choice light = choice(index, pmf);
   light.u = u;
   return light;
 }
 
 LightTree::Choice LightTree::choice_of(const LightQuery& at, std::uint32_t emitter) const {
-  const auto& [leaf, whole] = places_[emitter];
-  const std::uint32_t light = whole != kNone && is_light(nodes_[whole], at.x) ? whole : leaf;
+  const auto& [leaf, group] = places_[emitter];
+  const std::uint32_t light = group != kNone && is_light(nodes_[group], at.x) ? group : leaf;
   double pmf = 1;
   for (std::uint32_t node = light; nodes_[node].parent != kNone; node = nodes_[node].parent) {
     const Node& parent = nodes_[nodes_[node].parent];
     const Weights weights = weigh_children(parent, at);
     const double own = weights.of_child[node - parent.first_child];
-    if (own == 0) return choice(light, 0, at.x);
+    if (own == 0) return choice(light, 0);
     pmf *= own / weights.sum;
   }
-  return choice(light, pmf, at.x);
+  return choice(light, pmf);
 }
 
 }  // namespace lemma

@@ -8,6 +8,7 @@
 #include "src/lights/emitter_view.h"
 #include "src/lights/light_bounds.h"
 #include "src/lights/light_sampler.h"
+#include "src/lights/quad_light.h"
 #include "src/lights/whole_light.h"
 
 namespace lemma {
@@ -15,7 +16,8 @@ namespace lemma {
 /// A tree over emitters, from which a light is drawn by going down to one of a node's children with
 /// probability ~ its importance as seen from the point. Nodes are wide: with few lights, all are weighed one
 /// by one and nothing needs to be estimated. A light is a whole light (whole_light.h) where x can see it as
-/// one, else an emitter. Below the node of a whole light lies the tree of its own emitters.
+/// one, or a quad (quad_light.h) where x is far enough, else an emitter. Below the node of a whole light or a
+/// quad lies the tree of its own emitters.
 class LightTree {
  public:
   explicit LightTree(std::span<const Emitter> emitters);
@@ -26,12 +28,13 @@ class LightTree {
     BodyMesh mesh;
   };
 
-  /// A light chosen: one of the two.
+  /// A light chosen: one of the three.
   struct Choice {
     double pmf = 0;
     std::uint32_t emitter = 0;
-    const Whole* whole = nullptr;  // then `emitter` means nothing
-    double u = 0;                  // of choose(): what the choice leaves of its number, uniform in [0, 1)
+    const Whole* whole = nullptr;     // if one of these two is there, `emitter` ...
+    const QuadLight* quad = nullptr;  // ... means nothing
+    double u = 0;                     // of choose(): what the choice leaves of its number, uniform in [0, 1)
   };
 
   /// Draws a light for u uniform in [0, 1); nothing if no light can reach the surface.
@@ -54,11 +57,12 @@ class LightTree {
     std::uint32_t parent = kNone;
     std::uint32_t first_child = 0, children = 0;  // children lie together; a leaf has none
     std::uint32_t emitter = kNone;                // of a leaf
-    std::uint32_t whole = kNone;                  // index into wholes_
+    std::uint32_t whole = kNone;                  // index into wholes_, or ...
+    std::uint32_t quad = kNone;                   // ... into quads_, if it is one
   };
-  /// The nodes of an emitter, and of the whole light it belongs to if it does.
+  /// The nodes of an emitter, and of the whole light or the quad it belongs to if it does.
   struct Place {
-    std::uint32_t leaf = kNone, whole = kNone;
+    std::uint32_t leaf = kNone, group = kNone;
   };
   class Builder;
 
@@ -73,11 +77,12 @@ class LightTree {
   [[nodiscard]] bool is_light(const Node& node, const Vec3& x) const;
   [[nodiscard]] double importance(const Node& node, const LightQuery& at) const;
   [[nodiscard]] double irradiance_from(const Node& node, const LightQuery& at) const;
-  [[nodiscard]] Choice choice(std::uint32_t node, double pmf, const Vec3& x) const;
+  [[nodiscard]] Choice choice(std::uint32_t node, double pmf) const;
 
   std::span<const Emitter> emitters_;
   std::vector<EmitterView> views_;  // by emitter
   std::vector<Whole> wholes_;
+  std::vector<QuadLight> quads_;
   std::vector<Node> nodes_;    // the root first
   std::vector<Place> places_;  // by emitter
 };

@@ -45,7 +45,8 @@ class TreeSampler final : public LightSampler {
     const Vec2 u = random.next_2d();
     const auto light = tree_.choose(at, choice);
     if (!light) return std::nullopt;
-    return light->whole != nullptr ? sample_whole(at, *light, u) : sample_emitter(at, *light, u);
+    if (light->whole != nullptr) return sample_whole(at, *light, u);
+    return light->quad != nullptr ? sample_quad(at, *light, u) : sample_emitter(at, *light, u);
   }
 
   PdfSolidAngle pdf(const LightQuery& at, std::uint32_t emitter, const Vec3& y) const override {
@@ -53,6 +54,7 @@ class TreeSampler final : public LightSampler {
     if (!connection) return {0};
     const LightTree::Choice light = tree_.choice_of(at, emitter);
     if (light.whole != nullptr) return WholeView(light.whole->body, at).pdf(light.pmf, *connection);
+    if (light.quad != nullptr) return light.quad->pdf(light.pmf, emitter, *connection);
     const Triangle& triangle = emitters_[emitter].shape;
     if (tree_.samples_area(at.x, emitter)) return area_pdf(light.pmf, triangle, *connection);
     return triangle_pdf(light.pmf, triangle, SphericalTriangle(triangle, at.x), *connection);
@@ -68,6 +70,13 @@ class TreeSampler final : public LightSampler {
     if (!point) return std::nullopt;
     return make_sample(at, point->emitter, point->y,
                        [&](const Connection& c) { return seen.pdf(light.pmf, c); });
+  }
+
+  [[nodiscard]] std::optional<LightSample> sample_quad(const LightQuery& at, const LightTree::Choice& light,
+                                                       const Vec2& u) const {
+    const auto [emitter, y] = light.quad->sample(u);
+    return make_sample(at, emitter, y,
+                       [&, e = emitter](const Connection& c) { return light.quad->pdf(light.pmf, e, c); });
   }
 
   [[nodiscard]] std::optional<LightSample> sample_emitter(const LightQuery& at,

@@ -6,6 +6,7 @@
 #include "src/core/frame.h"
 #include "src/lights/light_sampler.h"
 #include "src/lights/lobe_sector.h"
+#include "src/lights/quad_light.h"
 #include "src/lights/sphere_cone.h"
 #include "src/lights/spherical_triangle.h"
 #include "src/lights/whole_light.h"
@@ -98,6 +99,51 @@ TEST(SphereCone, MeanCosineIsPositiveExactlyAboveTheHorizon) {
   EXPECT_NEAR(cone.mean_cosine(tilted(0)), (1 + std::cos(std::numbers::pi / 6)) / 2, 1e-15);
   EXPECT_GT(cone.mean_cosine(tilted(119.99)), 0);
   EXPECT_EQ(cone.mean_cosine(tilted(120.01)), 0);
+}
+
+/// A parallelogram cut along a diagonal, which starts at these corners of its halves.
+std::vector<Triangle> parallelogram() {
+  const Vec3 a(0, 2, 0), b(1, 2, 0.25f), c(0.5f, 2, 1), d = b + c - a;
+  return {{b, c, a}, {c, b, d}};
+}
+
+TEST(QuadLight, IsTwoHalvesOfAParallelogram) {
+  const auto found = [](const std::vector<Emitter>& emitters) {
+    return find_quad_lights(emitters, std::vector<bool>(emitters.size(), true)).size();
+  };
+  const auto halves = parallelogram();
+  EXPECT_EQ(found(emitters_of(halves, 1, 0)), 1u);
+  auto kite = halves, bent = halves, reversed = halves;
+  kite[1].v2 += Vec3(0.1f, 0, 0);
+  bent[1].v2 += Vec3(0, 0.1f, 0);
+  std::swap(reversed[1].v0, reversed[1].v1);
+  for (const auto& mesh : {kite, bent, reversed, {halves[0]}, {halves[0], halves[0]}}) {
+    EXPECT_EQ(found(emitters_of(mesh, 1, 0)), 0u);
+  }
+  auto two_lights = emitters_of(halves, 1, 0);
+  two_lights.front().light = 1;
+  EXPECT_EQ(found(two_lights), 0u);
+  EXPECT_TRUE(find_quad_lights(emitters_of(halves, 1, 0), {true, false}).empty());
+}
+
+/// Points go by one linear map from the square to the parallelogram, across its diagonal too; the density by
+/// area is the inverse of its area.
+TEST(QuadLight, IsALinearImageOfTheSquare) {
+  const auto emitters = emitters_of(parallelogram(), 1, 0);
+  const auto quads = find_quad_lights(emitters, {true, true});
+  ASSERT_EQ(quads.size(), 1u);
+  const auto at = [&](float s, float t) { return quads[0].sample({s, t}); };
+  const Vec3d origin = at(0, 0).y, along_s = at(1, 0).y - origin, along_t = at(0, 1).y - origin;
+  for (const auto& [s, t] : {std::pair(0.25f, 0.5f), {0.5f, 0.5f}, {0.75f, 0.5f}, {1.0f, 1.0f}}) {
+    EXPECT_LT(length(at(s, t).y - (origin + along_s * s + along_t * t)), 1e-7) << s << " " << t;
+    EXPECT_EQ(at(s, t).emitter == at(0, 0).emitter, s + t <= 1);
+  }
+  const double quad_area = length(cross(along_s, along_t));
+  for (const std::uint32_t e : {0u, 1u}) {
+    // From a point straight below, at distance 2, where density by area is density by angle / 4.
+    const Connection straight{{0, 2, 0}, 4, 1};
+    EXPECT_NEAR(double{quads[0].pdf(0.5, e, straight).value}, 0.5 * 4 / quad_area, 1e-6);
+  }
 }
 
 /// A lobe whose mirror direction makes this angle with the axis of cones around z.
@@ -227,6 +273,7 @@ double integral(const LightSampler& lights, const LightQuery& at, std::uint32_t 
 TEST(Tree, SamplesFollowTheDensity) {
   auto emitters = random_emitters(100, 0.3f);
   for (const Emitter& e : test::two_spheres()) emitters.push_back(e);
+  for (const Emitter& e : emitters_of(parallelogram(), 1, 0)) emitters.push_back(e);
   const auto lights = make_tree(emitters);
   constexpr int draws = 200000;
   struct Case {
