@@ -41,10 +41,7 @@ namespace lemma {
 /// Looks for lights from a vertex.
 template <Model M>
 void look_from(const Vertex<M>& vertex, const World& world, LightQuery& at) {
-  at.x = vertex.origin();
-  at.n = vertex.shading_normal();
-  at.reflection = vertex.reflection();
-  world.lights.prepare(at);
+  world.lights.look_from(vertex.origin(), vertex.shading_normal(), vertex.reflection(), at);
 }
 
 /// Whether the ray to a point of an emitter meets another emitter on top of it there.

@@ -49,10 +49,18 @@ class LightSampler {
   /// Finds what else the query holds. Nothing, by default.
   virtual void prepare(LightQuery&) const {}
 
+  /// Makes `at` the query of a point, prepared.
+  void look_from(const Vec3& x, const Vec3& n, const Reflection& reflection, LightQuery& at) const {
+    at.x = x;
+    at.n = n;
+    at.reflection = reflection;
+    prepare(at);
+  }
+
   /// A query of a point, prepared; one that reflects alike in all directions unless told.
   [[nodiscard]] LightQuery query(const Vec3& x, const Vec3& n, const Reflection& reflection = {}) const {
-    LightQuery at{x, n, reflection};
-    prepare(at);
+    LightQuery at;
+    look_from(x, n, reflection, at);
     return at;
   }
 
