@@ -58,7 +58,8 @@ class Polygon {
 Box wide_cell(const GridMargins& margins, const GridLevel& level, std::uint32_t index) {
   const auto nx = static_cast<std::uint32_t>(level.counts[0]),
              ny = static_cast<std::uint32_t>(level.counts[1]);
-  const Vec3d place(index % nx, index / nx % ny, index / nx / ny), size = Vec3d(1) / level.cells_per_unit;
+  const std::uint32_t ix = index % nx, iy = index / nx % ny, iz = index / nx / ny;
+  const Vec3d place(ix, iy, iz), size = Vec3d(1) / level.cells_per_unit;
   const Vec3d margin = size * margins.cell + Vec3d(margins.reach);
   return {level.lo + place * size - margin, level.lo + (place + Vec3d(1)) * size + margin};
 }
