@@ -10,12 +10,15 @@ constexpr float kSlack = 1e-6f;
 
 }  // namespace
 
+float longest_edge(const Triangle& t) {
+  return std::max({length(t.v1 - t.v0), length(t.v2 - t.v1), length(t.v0 - t.v2)});
+}
+
 EmitterView::EmitterView(const Emitter& emitter)
     : centre_(point_at(emitter.shape, 1 / 3.0, 1 / 3.0)),
       normal_(geometric_normal(emitter.shape)),
       power_(static_cast<float>(double{luminance(emitter.radiance)} * area(emitter.shape))) {
-  const Triangle& t = emitter.shape;
-  size_ = std::max({length(t.v1 - t.v0), length(t.v2 - t.v1), length(t.v0 - t.v2)});
+  size_ = longest_edge(emitter.shape);
   far_ = kFar * size_;
 }
 

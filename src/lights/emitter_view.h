@@ -6,6 +6,9 @@
 
 namespace lemma {
 
+/// Its length [scene units].
+[[nodiscard]] float longest_edge(const Triangle& t);
+
 /// What the importance of an emitter needs, found once; all in float32.
 class EmitterView {
  public:

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/lights/tangent.h"
+
 namespace lemma {
 namespace {
 
@@ -51,8 +53,7 @@ Vec3d LobeSector::sample(const Vec2& u) const {
   const double below =
       std::clamp(inner_ - width_ * std::log1p(double{u.x} * (fallen_ - 1)), 0.0, 2.0);  // 1 - cos
   const double sine = std::sqrt(below * (2 - below)), phi = half_turn_ * (2 * double{u.y} - 1);
-  const Vec3d other = beside_ ? axis_ : std::abs(mirror_.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
-  const Vec3d t = normalize(cross(mirror_, other)), s = cross(t, mirror_);
+  const Vec3d t = beside_ ? normalize(cross(mirror_, axis_)) : tangent(mirror_), s = cross(t, mirror_);
   return normalize(mirror_ * (1 - below) + (s * std::cos(phi) + t * std::sin(phi)) * sine);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/lights/tangent.h"
+
 namespace lemma {
 namespace {
 
@@ -17,11 +19,6 @@ double dot_in_plane(const Vec3d& a, const Vec3d& b) {
 Vec3d azimuth(const Vec3d& v) {
   const double size = std::hypot(v.x, v.y);
   return size > 0 ? Vec3d(v.x / size, v.y / size, 0) : Vec3d(0);
-}
-
-/// Any unit vector at right angles to n.
-Vec3d tangent(const Vec3d& n) {
-  return normalize(cross(n, std::abs(n.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0)));
 }
 
 }  // namespace

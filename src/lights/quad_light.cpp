@@ -28,10 +28,6 @@ Triangle wound_from(const Triangle& t, std::size_t k) {
   return t;
 }
 
-float longest_edge(const Triangle& t) {
-  return std::max({length(t.v1 - t.v0), length(t.v2 - t.v1), length(t.v0 - t.v2)});
-}
-
 /// The emitters by the edges opposite to their corners, in the direction of their winding.
 class Neighbours {
  public:

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "src/lights/tangent.h"
+
 namespace lemma {
 namespace {
 
@@ -31,8 +33,7 @@ bool SphereCone::holds(const Vec3d& w) const {
 Vec3d SphereCone::sample(const Vec2& u) const {
   const double below_axis = u.x * one_minus_cos_;  // 1 - cos of the angle to the axis
   const double sine = std::sqrt(below_axis * (2 - below_axis)), phi = kTwoPi * u.y;
-  const Vec3d other = std::abs(axis_.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
-  const Vec3d s = normalize(cross(axis_, other)), t = cross(axis_, s);
+  const Vec3d s = tangent(axis_), t = cross(axis_, s);
   return axis_ * (1 - below_axis) + (s * std::cos(phi) + t * std::sin(phi)) * sine;
 }
 
