@@ -55,7 +55,7 @@ def run_all(arguments, effort, configurations, jobs, threads):
     for scene in arguments.scenes:
         references[scene] = measure.reference(jobs, scene, effort)
     count = len(configurations) + len(others)
-    progress = Progress(len(arguments.scenes) * count * effort.seeds * effort.seconds)
+    progress = Progress(len(arguments.scenes) * count * effort.seeds * effort.seconds, jobs)
     for seed in range(1, effort.seeds + 1):
         for scene in arguments.scenes:
             for configuration in configurations:

@@ -28,14 +28,12 @@ class Jobs:
     def __init__(self, folder, identity):
         self.folder = folder
         self.identity = identity  # of program and machine: other ones have other results
+        self.made = 0  # results that were not there before this run
         folder.mkdir(parents=True, exist_ok=True)
 
     def path(self, key, ending):
         digest = hashlib.sha256(json.dumps([self.identity, key], sort_keys=True).encode()).hexdigest()[:16]
         return self.folder / f"{digest}{ending}"
-
-    def is_done(self, key):
-        return self.path(key, ".json").exists()
 
     def result(self, key, work):
         """The result of a job; `work` is called with the path its files begin with if there is none yet."""
@@ -45,22 +43,35 @@ class Jobs:
             partial = path.with_suffix(".partial")
             partial.write_text(json.dumps(value))
             partial.rename(path)
+            self.made += 1
         return json.loads(path.read_text())
 
 
 class Progress:
-    """A line on stderr for each job, with the time that the rest will take."""
+    """A line on stderr for each job, with the time that the rest will take at the pace of the jobs that this run made: what an
+    interrupted run had left took no time."""
 
-    def __init__(self, total_seconds):
+    def __init__(self, total_seconds, jobs, clock=time.monotonic):
         self.total = total_seconds
-        self.expected = 0.0  # of the jobs done
-        self.start = time.monotonic()
+        self.expected = self.expected_of_made = 0.0  # of the jobs done; of those that this run made
+        self.spent = 0.0  # on the latter
+        self.jobs, self.made_before = jobs, jobs.made
+        self.clock, self.last = clock, clock()
 
     def done(self, what, expected_seconds):
+        now, made = self.clock(), self.jobs.made
         self.expected += expected_seconds
-        spent = time.monotonic() - self.start
+        if made > self.made_before:
+            self.expected_of_made += expected_seconds
+            self.spent += now - self.last
+        self.last, self.made_before = now, made
+        print(self._line(what), file=sys.stderr, flush=True)
+
+    def _line(self, what):
+        left = max(0, self.total - self.expected)
+        pace = self.spent / self.expected_of_made if self.expected_of_made else 1
         part = self.expected / self.total if self.total else 1
-        print(f"{100 * part:3.0f} %  {spent:.0f} s, {spent * max(0, 1 / part - 1):.0f} s to go  {what}", file=sys.stderr, flush=True)
+        return f"{100 * part:3.0f} %  {self.spent:.0f} s, {left * pace:.0f} s to go  {what}"
 
 
 def _first_match(pattern, text):
