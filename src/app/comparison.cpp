@@ -12,6 +12,17 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 3> kChannelNames = {"R", "G", "B"};
 
+/// Whether both were rendered with the same random numbers.
+bool have_same_seed(const ReadImage& image, const ReadImage& reference) {
+  return !image.seed.empty() && image.seed == reference.seed;
+}
+
+std::string seed_line(const ReadImage& image, const ReadImage& reference) {
+  if (!have_same_seed(image, reference)) return {};
+  return fmt::format("both were rendered with --seed {}: what they err alike shows in no figure or test\n",
+                     image.seed);
+}
+
 std::string figure_lines(const Comparison& comparison) {
   std::string text;
   for (const auto& [name, value] : compare_figures(comparison)) {
@@ -115,7 +126,8 @@ NamedFigures compare_figures(const Comparison& c) {
 
 std::string comparison_text(const CompareOptions& options, const ReadImage& image, const ReadImage& reference,
                             const Comparison& c) {
-  std::string text = figure_lines(c) + corrected_lines(c) + mean_difference_line(c);
+  std::string text =
+      seed_line(image, reference) + figure_lines(c) + corrected_lines(c) + mean_difference_line(c);
   text += largest_lines(image, reference, c);
   if (c.color_scale) {
     text += fmt::format(
@@ -134,7 +146,8 @@ std::string comparison_json(const CompareOptions& options, const ReadImage& imag
                {"image", options.image.string()},
                {"reference", options.reference.string()},
                {"width", image.image.width},
-               {"height", image.image.height}};
+               {"height", image.image.height},
+               {"same_seed", have_same_seed(image, reference)}};
   for (const auto& [name, value] : compare_figures(c)) json[name] = value;
   if (c.noise) {
     json["reference_noise"] = {{"mse", c.noise->mse}, {"relmse", c.noise->relmse}};

@@ -47,6 +47,18 @@ void warn_of_options(const RenderOptions& options, LoadedScene& loaded) {
            name_of(roulettes(), i.roulette), albedo, kFixedSurvival));
 }
 
+/// A reference with the random numbers of the image has errors of its own that are not independent of the
+/// image's: the errors told would be too small, down to 0 at its own number of samples.
+void warn_of_reference(const RenderOptions& options, const ReadImage& reference) {
+  if (options.quiet || reference.seed != std::to_string(options.settings.seed)) return;
+  Warnings warnings;
+  warn(warnings, {options.reference},
+       fmt::format("it was rendered with --seed {}, too: the errors told will be too small; render with "
+                   "another seed than the reference's",
+                   reference.seed));
+  report_warnings(warnings, false);
+}
+
 /// Memory of a pixel, beside the film, while an image is rendered and encoded: colours and variances as
 /// float, as written, and once more in the encoder [bytes].
 constexpr std::uint64_t kBytesAPixel = 72;
@@ -95,7 +107,7 @@ Metadata image_metadata(const RenderOptions& options, const CameraView& view, co
           {"lemma:scene", options.scene.scene.string()},
           {"lemma:options", image_options(options, view, result.spp)},
           {"lemma:spp", fmt::format("{}", result.spp)},
-          {"lemma:seed", fmt::format("{}", options.settings.seed)},
+          {kSeedAttribute, fmt::format("{}", options.settings.seed)},
           {kPartsAttribute, fmt::format("{}", result.parts)}};
 }
 
@@ -123,6 +135,7 @@ ExitCode run_render(const RenderOptions& options) {
   }
 
   const std::optional<ReadImage> reference = read_reference(options, scene.view);
+  if (reference) warn_of_reference(options, *reference);
 
   const BuiltAccelerator built = build_accelerator(options, scene);
   const auto lights = options.lights.value(scene.emitters);

@@ -102,6 +102,7 @@ ReadImage read_image(const fs::path& path) {
   ReadImage read;
   read.image = pick(spec, values, color);
   read.linear = spec.format.is_floating_point();
+  read.seed = spec.get_string_attribute(kSeedAttribute);
   require_finite(path, read.image, "");
   if (has_all(variance)) {
     read.variance = pick(spec, values, variance);

@@ -14,6 +14,7 @@ struct ReadImage {
   std::optional<Image> variance;  // of the mean of each value, from the layer "variance"
   bool linear = false;            // radiance; else values for the screen in [0, 1]
   int parts = 0;                  // independent parts that the variance was estimated from; 0 if not told
+  std::string seed;               // of the random numbers it was rendered with; empty if not told
 };
 
 /// Reads an image in any format that OpenImageIO knows. Its channels R, G, B must be there; if one of

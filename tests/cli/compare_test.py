@@ -42,6 +42,14 @@ class FigureTest(CompareTest):
             self.assertRegex(text, rf"(?m)^{name} +[\d.e-]+$")
         self.assertEqual(text.count("  pixel "), 2)
 
+    def test_equal_seeds_are_told(self):
+        """What two images with the same random numbers err alike is in none of the figures."""
+        image, same, other = (self.render_to(f"{i}.exr", "--seed", seed) for i, seed in enumerate((1, 1, 2)))
+        told = "both were rendered with --seed 1"
+        self.assertTrue(self.compare(image, same).startswith(told))
+        self.assertNotIn("seed", self.compare(image, other))
+        self.assertEqual([self.compare_json(image, to)["same_seed"] for to in (same, other)], [True, False])
+
     def test_pictures_are_compared_as_pictures(self):
         self.render("-o", "a.png", "-o", "b.jpg", spp=4)
         self.assertLess(self.compare_json("b.jpg", "a.png")["rmse"], 0.2)

@@ -210,6 +210,14 @@ class StopTest(LemmaTest):
         relmse = json.loads((self.folder / "compare.json").read_text())["relmse_without_noise"]
         self.assertAlmostEqual(curve[-1]["relmse"] / relmse, 1, 6)
 
+    def test_reference_of_the_same_seed_is_warned_of(self):
+        self.render("-q", "-o", "reference.exr", "--seed", 2, size="8x8", spp=2)
+        for seed, told in ((2, ["reference.exr: warning: it was rendered with --seed 2, too"]), (3, [])):
+            done = self.lemma("render", CORNELL_BOX, "--size", "8x8", "--spp", "2", "--seed", str(seed),
+                              "--reference", "reference.exr", "-o", "a.exr", "--progress", "off")
+            self.assertEqual(done.returncode, DONE, done.stderr)
+            self.assertEqual(re.findall(r"reference.exr: warning: [^:]*", done.stderr), told)
+
     def test_reference_that_is_none(self):
         self.render("-q", "-o", "a.exr", "-o", "a.png", size="8x8", spp=2)
         self.assert_refused(["render", "-q", CORNELL_BOX, "--size", "9x8", "--reference", "a.exr"],
