@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <initializer_list>
+
 namespace lemma::test {
 namespace {
 
@@ -28,6 +31,19 @@ std::vector<std::string_view> names(const Table& table) {
 
 std::string_view chosen(const Combination& c, std::size_t option) {
   return options()[option].choices[c[option]];
+}
+
+/// BRDF sampling is a choice of Phong's lobe alone.
+bool has_phong_lobe(const Scene& scene) {
+  return scene.needs.model.specular &&
+         std::ranges::any_of(scene.materials, [](const Material& m) { return m.lobe == Lobe::phong; });
+}
+
+/// What is chosen of these options, as one number.
+std::size_t number_of(const Combination& c, std::initializer_list<std::size_t> chosen_options) {
+  std::size_t number = 0;
+  for (const std::size_t o : chosen_options) number = number * options()[o].choices.size() + c[o];
+  return number;
 }
 
 }  // namespace
@@ -65,7 +81,7 @@ std::string name_of(const Combination& combination) {
 bool is_possible(const Combination& c, const Scene& scene, bool touches_light) {
   const std::string_view integrator = kAllWeights[c[kWeights]].integrator, lights = chosen(c, kLights);
   if (integrator == "brdf" && c[kLights] != 0) return false;
-  if (!scene.needs.model.specular && c[kBrdfSampling] != 0) return false;
+  if (!has_phong_lobe(scene) && c[kBrdfSampling] != 0) return false;
   const bool by_area = lights == "power" || lights == "radiance-area";
   return !(touches_light && integrator == "direct" && by_area);
 }
@@ -87,11 +103,31 @@ std::vector<Combination> all_combinations(const Scene& scene, bool touches_light
 double cost(const Combination& c, const Scene& scene) {
   const std::string_view lights = chosen(c, kLights);
   const auto emitters = static_cast<double>(scene.emitters.size());
-  return 1 + (lights == "solid-angle" ? emitters / 300 : lights == "projected" ? emitters / 100 : 0);
+  if (kAllWeights[c[kWeights]].integrator == "brdf") return 0.5;
+  return 1 + (lights == "solid-angle" ? emitters / 400 : lights == "projected" ? emitters / 350 : 0);
 }
 
-bool alike_in_noise(const Combination& a, const Combination& b) {
-  return a[kWeights] == b[kWeights] && a[kLights] == b[kLights];
+std::size_t kind_of_noise(const Combination& c) {
+  return number_of(c, {kWeights, kLights, kRoulette, kSampler});
+}
+
+std::size_t family_of_noise(const Combination& c) {
+  return number_of(c, {kWeights, kLights});
+}
+
+std::vector<std::vector<std::size_t>> blocks_of(int width, int height, int block) {
+  std::vector<std::vector<std::size_t>> blocks;
+  for (int top = 0; top < height; top += block) {
+    for (int left = 0; left < width; left += block) {
+      std::vector<std::size_t>& pixels = blocks.emplace_back();
+      for (int y = top; y < std::min(top + block, height); ++y) {
+        for (int x = left; x < std::min(left + block, width); ++x) {
+          pixels.push_back(static_cast<std::size_t>(y * width + x));
+        }
+      }
+    }
+  }
+  return blocks;
 }
 
 CombinationRenderer::CombinationRenderer(const Scene& scene) {
@@ -105,8 +141,8 @@ CombinationRenderer::CombinationRenderer(const Scene& scene) {
   }
 }
 
-std::vector<double> CombinationRenderer::means(const Combination& c, std::uint32_t spp, std::uint64_t seed,
-                                               int block) const {
+std::vector<double> CombinationRenderer::pixels(const Combination& c, std::uint32_t spp,
+                                                std::uint64_t seed) const {
   const Scene& scene = scenes_[c[kBrdfSampling]];
   const Weights& weights = kAllWeights[c[kWeights]];
   IntegratorOptions integrator_options;
@@ -118,8 +154,8 @@ std::vector<double> CombinationRenderer::means(const Combination& c, std::uint32
       render({scene, *accelerators_[c[kAccelerator]], *lights_[c[kLights]]}, *integrator,
              {.spp = spp, .seed = seed, .sequence = sequences()[c[kSampler]].value}, nullptr);
   EXPECT_EQ(result.invalid_samples, 0u) << name_of(c);
-  std::vector<double> means = block_means(result.image, block);
-  means.insert(means.begin(), image_mean(result.image));
+  std::vector<double> means;
+  for (const Rgb& p : result.image.pixels) means.push_back((static_cast<double>(p.r) + p.g + p.b) / 3);
   return means;
 }
 

@@ -39,26 +39,31 @@ using Combination = std::array<std::size_t, kOptions>;
 [[nodiscard]] std::string name_of(const Combination& combination);
 
 /// Whether the combination is one of its own and has a finite variance: without light samples there is no
-/// light sampling to choose, without specular lobes no BRDF sampling. See AgreementCase::touches_light.
+/// light sampling to choose, without Phong's lobes no BRDF sampling. See AgreementCase::touches_light.
 [[nodiscard]] bool is_possible(const Combination& combination, const Scene& scene, bool touches_light);
 
 [[nodiscard]] std::vector<Combination> all_combinations(const Scene& scene, bool touches_light);
 
-/// Of a sample, about, in units of the cheapest's: some strategies visit every emitter at every
-/// vertex.
+/// Of a sample, about, in microseconds: some strategies visit every emitter at every vertex.
 [[nodiscard]] double cost(const Combination& combination, const Scene& scene);
 
-/// Whether weights and lights, which decide the noise above all, are the same.
-[[nodiscard]] bool alike_in_noise(const Combination& a, const Combination& b);
+/// The same for combinations that are alike in noise: all but accelerator and BRDF sampling are the same.
+[[nodiscard]] std::size_t kind_of_noise(const Combination& combination);
+
+/// The same for combinations with the same weights and lights, which decide the noise above all.
+[[nodiscard]] std::size_t family_of_noise(const Combination& combination);
+
+/// The pixels of each block of so many pixels squared, row by row.
+[[nodiscard]] std::vector<std::vector<std::size_t>> blocks_of(int width, int height, int block);
 
 /// Renders combinations for a scene. May be used by several threads.
 class CombinationRenderer {
  public:
   explicit CombinationRenderer(const Scene& scene);
 
-  /// Means of the image, first, and of its blocks of so many pixels squared.
-  [[nodiscard]] std::vector<double> means(const Combination& combination, std::uint32_t spp,
-                                          std::uint64_t seed, int block) const;
+  /// The mean over the channels of each pixel.
+  [[nodiscard]] std::vector<double> pixels(const Combination& combination, std::uint32_t spp,
+                                           std::uint64_t seed) const;
 
  private:
   std::vector<Scene> scenes_;  // one for each BRDF sampling

@@ -1,6 +1,5 @@
 #include "tests/support/images.h"
 
-#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -24,24 +23,6 @@ double image_mean(const Image& image) {
   double sum = 0;
   for (const Rgb& c : image.pixels) sum += (static_cast<double>(c.r) + c.g + c.b) / 3;
   return sum / static_cast<double>(image.pixels.size());
-}
-
-std::vector<double> block_means(const Image& image, int block) {
-  std::vector<double> means;
-  for (int top = 0; top < image.height; top += block) {
-    for (int left = 0; left < image.width; left += block) {
-      double sum = 0;
-      int count = 0;
-      for (int y = top; y < std::min(top + block, image.height); ++y) {
-        for (int x = left; x < std::min(left + block, image.width); ++x, ++count) {
-          const Rgb& c = image.pixels[static_cast<std::size_t>(y * image.width + x)];
-          sum += (static_cast<double>(c.r) + c.g + c.b) / 3;
-        }
-      }
-      means.push_back(sum / count);
-    }
-  }
-  return means;
 }
 
 Estimate mean_over_seeds(const Scene& scene, const Configuration& configuration, std::uint32_t spp,

@@ -27,10 +27,6 @@ struct Configuration {
 /// Mean over all pixels and channels.
 [[nodiscard]] double image_mean(const Image& image);
 
-/// Mean over all pixels and channels of each block of so many pixels squared, row by row; blocks at the right
-/// and lower border may be smaller.
-[[nodiscard]] std::vector<double> block_means(const Image& image, int block);
-
 /// Image means of `seeds` independent renderings, with the seeds from first_seed on.
 [[nodiscard]] Estimate mean_over_seeds(const Scene& scene, const Configuration& configuration,
                                        std::uint32_t spp, std::uint64_t first_seed, int seeds);

@@ -59,4 +59,43 @@ Scene light_below_horizon(bool block) {
   return scene;
 }
 
+Scene glossy_room(const BrdfOptions& brdf) {
+  Scene scene;
+  scene.view = {{0.1f, 0.2f, 2.8f}, {0, -0.3f, 0}, {0, 1, 0}, 60, 16, 16};
+  const auto grey = [&](float kd, float ks, float n) {
+    return make_material({kd, kd, kd}, {ks, ks, ks}, n, brdf);
+  };
+  scene.materials = {grey(0.4f, 0.2f, 30), grey(0.2f, 0.45f, 3), grey(0.1f, 0.5f, 100), grey(0, 0.6f, 0)};
+  const auto add = [&](const Triangle& t, std::uint32_t material) {
+    scene.triangles.push_back(t);
+    scene.facets.push_back({material, kNoEmitter});
+  };
+  const auto add_emitter = [&](const Triangle& t, float radiance, std::uint32_t light) {
+    add(t, 0);
+    scene.facets.back().emitter = static_cast<std::uint32_t>(scene.emitters.size());
+    scene.emitters.push_back({.shape = t,
+                              .radiance = {radiance, radiance, radiance},
+                              .triangle = static_cast<std::uint32_t>(scene.triangles.size() - 1),
+                              .light = light});
+  };
+  for (const Triangle& t : inward_box({-1, -1, -1}, {1, 1, 3})) {
+    const Vec3 n(area_vector(t));
+    if (n.y < 0) {
+      add_emitter(t, 1, 0);  // the ceiling
+    } else {
+      add(t, n.y > 0 ? 1 : n.x != 0 ? 2 : 0);
+    }
+  }
+  const Vec3 corner(-0.4f, 0.6f, -0.4f), x(0.7f, 0, 0), z(0, 0, 0.9f);
+  add_emitter({corner, corner + x, corner + z}, 3, 1);
+  add_emitter({corner + x, corner + x + z, corner + z}, 3, 1);
+  for (const Triangle& t : sphere_mesh({0.3f, -0.6f, 0.2f}, 0.35f, 6, 10)) add(t, 3);
+  scene.overlays = find_overlays(scene.triangles, scene.emitters);
+  scene.needs.model.overlays = !scene.overlays.empty();
+  scene.needs.model.specular = true;
+  scene.needs.lights = 2;
+  scene.needs.emitter_triangles = scene.emitters.size();
+  return scene;
+}
+
 }  // namespace lemma::test
