@@ -77,8 +77,8 @@ void require_finite(const fs::path& path, const Image& image, std::string_view l
   const auto count =
       image.pixels.size() - static_cast<std::size_t>(std::ranges::count_if(image.pixels, finite));
   throw bad_image(path,
-                  fmt::format("{} pixels are not finite{}, the first at {},{}", count, layer,
-                              index % image.width, index / image.width),
+                  fmt::format("{} of {} pixels not finite{}, the first at {},{}", count, image.pixels.size(),
+                              layer, index % image.width, index / image.width),
                   "an image with NaN or infinite values has no error figures");
 }
 

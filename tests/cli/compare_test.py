@@ -1,9 +1,12 @@
 """`lemma compare`: figures, difference images, verdicts, and what it refuses."""
 
 import json
+import math
+import struct
+import subprocess
 import unittest
 
-from lemma import DONE, LemmaTest, image_format, image_pixels
+from lemma import BAD_INPUT, DONE, LemmaTest, image_format, image_pixels
 
 COMPARISON_FAILED = 3
 FIGURES = ["rmse", "relmse", "trimmed-relmse", "smape", "flip"]
@@ -124,6 +127,31 @@ class RefusalTest(CompareTest):
         self.assert_refused(["compare", ".", "a.exr"], ".: error: this is a folder\n  hint: name an image file")
         run = self.lemma("compare", "notes.txt", "a.exr")
         self.assertRegex(run.stderr, r"\Anotes\.txt: error: no image can be read from it: .*\n  hint: name an image as ")
+
+    def test_other_channels(self):
+        for names in ("Y", "R,G,B,variance.R"):
+            count = names.count(",") + 1
+            subprocess.run(["oiiotool", "--create", "4x4", str(count), "--chnames", names, "-o", self.folder / "a.exr"],
+                           check=True)
+            self.assert_refused(["compare", "a.exr", "a.exr"],
+                                f"a.exr: error: it has the channels {names.replace(',', ', ')}\n"
+                                "  hint: expected R, G, B, and all or none of variance.R, variance.G, variance.B")
+
+    def test_broken_files(self):
+        """One whose second value of red is not a number, and one that ends too soon."""
+        file = self.folder / "a.exr"
+        subprocess.run(["oiiotool", "--pattern", "constant:color=0.123,0.5,0.25", "4x4", "3", "-d", "float",
+                        "--compression", "none", "-o", file], check=True)
+        whole, red = file.read_bytes(), struct.pack("<f", 0.123)
+        second = whole.find(red, whole.find(red) + 1)
+        file.write_bytes(whole[:second] + struct.pack("<f", math.nan) + whole[second + 4:])
+        self.assert_refused(["compare", "a.exr", "a.exr"],
+                            "a.exr: error: 1 of 16 pixels not finite, the first at 1,0\n"
+                            "  hint: an image with NaN or infinite values has no error figures")
+        file.write_bytes(whole[:-60])
+        run = self.lemma("compare", "a.exr", "a.exr")
+        self.assertEqual(run.returncode, BAD_INPUT)
+        self.assertRegex(run.stderr, r"(?s)\Aa\.exr: error: it cannot be read to its end: .*\n  hint: the file may be broken")
 
     def test_options(self):
         hint = "expected NAME=X with X at least 0 and NAME one of: rmse, relmse, trimmed-relmse, smape, flip"

@@ -33,6 +33,14 @@ class PixelTest(LemmaTest):
             self.assertIn(word, text)
         self.assertEqual(text.count("\nsample "), 7)
 
+    def test_explain_tells_emitters_that_are_met_and_which_sample_goes_on(self):
+        self.assertIn("  camera: emitter 0, radiance (17, 12, 4)\n", self.pixel("--explain", at="7,1", spp=1))
+        text = self.pixel("--explain", "--integrator", "brdf", spp=256)
+        self.assertRegex(text, r"    it meets an emitter: emitter [01], radiance \(17, 12, 4\)\n"
+                               r"      densities \[1/sr\]: brdf .*\n      weight 1: contributes")
+        text = self.pixel("--explain", "--integrator", "mis-report", spp=64)
+        self.assertRegex(text, r"    goes on with the (light|BRDF) sample, chosen with probability ")
+
     def test_json_adds_up(self):
         self.pixel("--explain-json", "paths.json", spp=16)
         paths = json.loads((self.folder / "paths.json").read_text(encoding="utf-8"))
