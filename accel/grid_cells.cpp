@@ -334,6 +334,8 @@ class DistinctLists {
 void append_level(const Part& part, std::uint32_t children, DistinctLists& lists, GridCells& grid) {
   GridLevel level = part.level;
   level.words = static_cast<std::uint32_t>(grid.occupied.size());
+  level.near = static_cast<std::uint32_t>(grid.near.size());
+  grid.near.resize(grid.near.size() + level.cell_count() / 4 + 1);
   grid.levels.push_back(level);
   std::size_t next = 0;
   for (std::uint32_t i = 0; i < level.cell_count(); ++i) {
@@ -347,6 +349,26 @@ void append_level(const Part& part, std::uint32_t children, DistinctLists& lists
       record.count = GridCells::Record::kLevel;
     } else {
       grid.records.push_back(lists.add(list, grid.references));
+    }
+  }
+}
+
+/// Notes a level's occupied cells with those before them.
+void mark_near(const GridLevel& level, GridCells& grid) {
+  std::array<int, 3> cell{};
+  for (cell[2] = 0; cell[2] < level.counts[2]; ++cell[2]) {
+    for (cell[1] = 0; cell[1] < level.counts[1]; ++cell[1]) {
+      for (cell[0] = 0; cell[0] < level.counts[0]; ++cell[0]) {
+        if (!grid.is_occupied(level, level.index(cell))) continue;
+        for (std::uint32_t place = 0; place < 8; ++place) {
+          const std::array<int, 3> from{cell[0] - static_cast<int>(place & 1),
+                                        cell[1] - static_cast<int>(place >> 1 & 1),
+                                        cell[2] - static_cast<int>(place >> 2)};
+          if (from[0] < 0 || from[1] < 0 || from[2] < 0) continue;
+          const std::uint32_t index = level.index(from);
+          grid.near[level.near + index / 4] |= 1u << (8 * (index % 4) + place);
+        }
+      }
     }
   }
 }
@@ -407,8 +429,8 @@ std::array<int, 3> cell_counts(const Vec3d& extent, double target) {
 
 std::size_t GridCells::memory_bytes() const {
   return levels.capacity() * sizeof(GridLevel) + occupied.capacity() * sizeof(Word) +
-         records.capacity() * sizeof(Record) + references.capacity() * sizeof(std::uint32_t) +
-         vertices.capacity() * sizeof(float);
+         near.capacity() * sizeof(std::uint32_t) + records.capacity() * sizeof(Record) +
+         references.capacity() * sizeof(std::uint32_t) + vertices.capacity() * sizeof(float);
 }
 
 GridCells build_grid_cells(std::span<const Triangle> triangles, const GridResolution& resolution) {
@@ -432,6 +454,7 @@ GridCells build_grid_cells(std::span<const Triangle> triangles, const GridResolu
   split_crowds(scene, part, 0);
   DistinctLists lists;
   append(part, lists, grid);
+  parallel_for(grid.levels.size(), [&](std::size_t i) { mark_near(grid.levels[i], grid); });
   grid.references.resize(grid.references.size() + GridCells::kOverread);
   grid.vertices.resize(9 * grid.references.size());
   fit_boxes(triangles, {kCellMargin, kReachMargin * reach}, grid);

@@ -20,6 +20,7 @@ struct alignas(64) GridLevel {
   Vec3d cells_per_unit{0};             // cells an axis / size of the box [1 / scene units]
   std::array<int, 3> counts{1, 1, 1};  // cells an axis
   std::uint32_t words = 0;             // where its part of GridCells::occupied begins
+  std::uint32_t near = 0;              // and that of GridCells::near
 
   [[nodiscard]] std::uint32_t index(const std::array<int, 3>& cell) const {
     return static_cast<std::uint32_t>((cell[2] * counts[1] + cell[1]) * counts[0] + cell[0]);
@@ -50,8 +51,12 @@ struct GridCells {
     std::uint32_t count = 0;
   };
 
-  std::vector<GridLevel> levels;          // the whole scene first; none if there are no triangles
-  std::vector<Word> occupied;             // of the levels, one after the other
+  std::vector<GridLevel> levels;  // the whole scene first; none if there are no triangles
+  std::vector<Word> occupied;     // of the levels, one after the other
+  /// Of each cell a byte, four in a word from the lowest on: bit x + 2 y + 4 z says whether the cell that
+  /// many further on each axis, 0 or 1, is occupied. Rays look here for the cells they pass in a slice at
+  /// once.
+  std::vector<std::uint32_t> near;
   std::vector<Record> records;            // of the occupied cells, in their order
   std::vector<std::uint32_t> references;  // triangle indices, list by list
   std::vector<float> vertices;            // of the references, see packed()

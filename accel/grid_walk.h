@@ -44,39 +44,43 @@ struct GridCrossing {
       return std::clamp(start[k] + enter * speed[k], 0.0, static_cast<double>(level.counts[k]));
     };
     const double first = entry(main);
-    count = level.counts[main];
+    const int count = level.counts[main];
     slice = std::min(static_cast<int>(first), count - 1);
     const bool up = speed[main] > 0;
     step = up ? 1 : -1;
     stride = strides[main];
     to_plane = static_cast<float>(up ? slice + 1 - first : first - slice);
     slices_per_t = std::abs(speed[main]);
-    end = static_cast<float>((leave - enter) * slices_per_t);
+    slices = up ? count - slice : slice + 1;
+    slices = slices_until(leave);
     for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t k = (main + 1 + i) % 3;
-      side[i] = {static_cast<float>(entry(k)), static_cast<float>(speed[k] * std::abs(pace[main])),
-                 static_cast<float>(pace[k] * slices_per_t), strides[k], level.counts[k] - 1};
+      side[i] = {static_cast<float>(entry(k)),
+                 static_cast<float>(speed[k] * std::abs(pace[main])),
+                 static_cast<float>(pace[k] * slices_per_t),
+                 strides[k],
+                 level.counts[k] - 1,
+                 1 << k};
     }
   }
 
-  /// s at which the ray enters a slice.
-  [[nodiscard]] LEMMA_INLINE float begins(int number) const {
-    return static_cast<float>(number - 1) + to_plane;
-  }
-
-  /// The s beyond which no cell is of interest.
-  [[nodiscard]] LEMMA_INLINE float reach(float limit) const {
-    return std::min(end, static_cast<float>((limit - enter) * slices_per_t));
+  /// How many slices the ray enters up to t = limit: s of the last is to_plane - 1 and one more for each
+  /// before. As many as before where the limit is later.
+  [[nodiscard]] LEMMA_INLINE int slices_until(double limit) const {
+    const double end = (limit - enter) * slices_per_t + (2 + 0x1p-10) - to_plane;
+    return std::min(slices, static_cast<int>(std::clamp(end, 0.0, 2.0 * GridLevel::kMaxCellsPerAxis)));
   }
 
   /// One of the other two axes.
   struct Side {
     float start, slope, pace;  // place where the ray enters the grid; cells a slice; slices a cell
     int stride, last;          // of the index of a cell; the last cell
+    int neighbour;             // place of the next cell in a group of neighbours (GridCells::near)
   };
   std::array<Side, 2> side;
-  int slice, step, stride, count;  // the first slice, the way to the next, their cells' indices, their number
-  float to_plane, end;             // s at which the ray leaves the first slice, and the grid
+  int slice, step, stride,
+      slices;      // the first slice, the way to the next, their cells' indices, their number
+  float to_plane;  // s at which the ray leaves the first slice
   double enter, slices_per_t;
   bool misses;
 };
