@@ -66,7 +66,7 @@ struct Goal {
 inline constexpr double kPower = 0.9;
 
 /// Part of a test's variance that may be the reference's.
-inline constexpr double kReferenceShare = 0.15;
+inline constexpr double kReferenceShare = 0.25;
 
 /// The difference of several arms, weighted, from what they are compared with: each from its partner, drawn
 /// with the same random numbers, so that what both do with them alike cancels; or all from a reference that
