@@ -10,6 +10,7 @@
 #include "accel/accelerator.h"
 #include "accel/embree_api.h"
 #include "accel/watertight.h"
+#include "src/core/error_bound.h"
 
 namespace lemma {
 namespace {
@@ -41,9 +42,8 @@ RTCRay to_embree(const Ray& ray) {
   RTCRay r{};
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  r.tnear = std::max(std::nextafter(ray.t_min, infinity), std::numeric_limits<float>::min());
-  r.tfar = ray.t_max == infinity ? infinity : std::nextafter(ray.t_max, -infinity);
+  r.tnear = std::max(next_float_towards(ray.t_min, 1), std::numeric_limits<float>::min());
+  r.tfar = next_float_towards(ray.t_max, -1);  // infinity stays
   r.mask = 0xFFFFFFFFu;
   return r;
 }

@@ -74,9 +74,8 @@ class Vertex {
 
   /// Draws a direction by the BRDF; nothing if it absorbs.
   [[nodiscard]] std::optional<ScatterSample> sample(Sampler& random) const {
-    const float choice = M.specular || M.glass ? random.next() : 0;
-    if (is_glass()) return sample_glass(choice);
-    const std::optional<BrdfSample> local = brdf_.sample(wo_, choice, random.next_2d());
+    if (is_glass()) return sample_glass(random.next());
+    const std::optional<BrdfSample> local = sample_brdf(random);
     if (!local) return std::nullopt;
     const Vec3 wi = frame_.to_world(local->wi);
     if (!above_surface(wi)) return std::nullopt;
@@ -103,6 +102,11 @@ class Vertex {
     } else {
       return scene.materials[index];
     }
+  }
+
+  [[nodiscard]] std::optional<BrdfSample> sample_brdf(Sampler& random) const {
+    if constexpr (M.specular) return brdf_.sample(wo_, random.next_choice_pair());
+    return brdf_.sample(wo_, 0, random.next_2d());
   }
 
   /// With flat normals the two horizons are one, and the BRDF knows it.

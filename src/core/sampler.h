@@ -75,6 +75,25 @@ class Sampler {
   /// Uniform in [0, 1): a multiple of 2^-24, never 1.
   [[nodiscard]] float next() { return to_unit(next_bits()); }
 
+  /// A pair of which x is for a choice and what follows it: x to 53 bits, so that there are enough left.
+  struct ChoicePair {
+    double x;  // in [0, 1), a multiple of 2^-53
+    float y;   // as next()
+  };
+
+  /// As next_2d. With Sequence::sobol the 32 bits of the sequence are followed by others, the same for all
+  /// samples of a set, that move its points within their places.
+  [[nodiscard]] ChoicePair next_choice_pair() {
+    if (sequence_ == Sequence::independent) {
+      const std::uint32_t coarse = next_independent(), fine = next_independent();
+      return {to_unit(coarse, fine), next()};
+    }
+    const std::uint64_t keys = next_keys(), more = next_keys();
+    const std::uint32_t index = shuffled_index(reversed_index_, low(keys));
+    return {to_unit(scrambled_sobol_x(index, high(keys)), high(more)),
+            to_unit(scrambled_sobol_y(index, low(more)))};
+  }
+
   [[nodiscard]] Vec2 next_2d() {
     if (sequence_ == Sequence::independent) {
       const float x = next();
@@ -88,6 +107,9 @@ class Sampler {
 
  private:
   static float to_unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+  static double to_unit(std::uint32_t coarse, std::uint32_t fine) {
+    return static_cast<double>((std::uint64_t{coarse} << 32 | fine) >> 11) * 0x1p-53;
+  }
   static std::uint32_t low(std::uint64_t keys) { return static_cast<std::uint32_t>(keys); }
   static std::uint32_t high(std::uint64_t keys) { return static_cast<std::uint32_t>(keys >> 32); }
 

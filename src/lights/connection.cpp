@@ -11,11 +11,29 @@ constexpr double kShadowMargin = 4;
 // A light seen so edge-on that its distance is uncertain by more than this is treated as uncertain by this.
 constexpr double kLargestMargin = 1e-2;
 
+/// The largest coordinate difference between x and a vertex.
+float largest_difference(const Triangle& t, const Vec3& x) {
+  float m = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float lowest = std::min(std::min(t.v0[k], t.v1[k]), t.v2[k]);
+    const float highest = std::max(std::max(t.v0[k], t.v1[k]), t.v2[k]);
+    m = std::max(m, std::max(highest - x[k], x[k] - lowest));
+  }
+  return m;
+}
+
+double longest_edge2(const Triangle& t) {
+  const Vec3d e0(t.v1 - t.v0), e1(t.v2 - t.v1), e2(t.v0 - t.v2);
+  return std::max(std::max(dot(e0, e0), dot(e1, e1)), dot(e2, e2));
+}
+
+/// The error of a hit's distance is sliver_ratio u M / cos_light; over the distance itself this is
+/// longest_edge^2 u M / facing, where neither length nor root is left.
 float visible_until(const Emitter& emitter, const Vec3& x, const Connection& c) {
   const Triangle& t = emitter.shape;
-  const double m = std::max({max_norm(t.v0 - x), max_norm(t.v1 - x), max_norm(t.v2 - x)});
-  const double error = kShadowMargin * kPlaneError * kRoundoff * sliver_ratio(t) * m / c.cos_light;
-  return static_cast<float>(1 - std::min(error / std::sqrt(c.distance2), kLargestMargin));
+  constexpr double unit = kShadowMargin * kPlaneError * kRoundoff;
+  const double error = unit * longest_edge2(t) * largest_difference(t, x) / c.facing;
+  return static_cast<float>(1 - std::min(error, kLargestMargin));
 }
 
 }  // namespace
@@ -25,9 +43,10 @@ std::optional<Connection> connect(const Emitter& emitter, const Vec3& x, const V
   const Vec3d to_light = y - Vec3d(x);
   const double distance2 = dot(to_light, to_light);
   const Vec3d normal = area_vector(emitter.shape);
-  const double cos_light = -dot(normal, to_light) / std::sqrt(dot(normal, normal) * distance2);
+  const double facing = -dot(normal, to_light);
+  const double cos_light = facing / std::sqrt(dot(normal, normal) * distance2);
   if (!(cos_light > 0)) return std::nullopt;
-  return Connection{to_light, distance2, std::min(cos_light, 1.0)};
+  return Connection{to_light, distance2, std::min(cos_light, 1.0), facing};
 }
 
 LightSample make_light_sample(std::span<const Emitter> emitters, std::size_t index, const Vec3& x,

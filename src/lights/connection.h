@@ -12,6 +12,7 @@ struct Connection {
   Vec3d to_light;    // y - x
   double distance2;  // |y - x|^2 > 0
   double cos_light;  // cosine at the emitter, in (0, 1]
+  double facing;     // the same times |area_vector| |y - x|
 };
 
 [[nodiscard]] std::optional<Connection> connect(const Emitter& emitter, const Vec3& x, const Vec3d& y);

@@ -70,6 +70,20 @@ class LightTree::Builder {
     tree_.nodes_[node].first_child = first;
     tree_.nodes_[node].children = static_cast<std::uint32_t>(parts.size());
     for (std::uint32_t i = 0; i < parts.size(); ++i) build(first + i, parts[i]);
+    add_block(node);
+  }
+
+  /// Of the whole lights among a node's children, if any is one.
+  void add_block(std::uint32_t node) {
+    WholeBlock block;
+    for (std::uint32_t i = 0; i < tree_.nodes_[node].children; ++i) {
+      const Node& child = tree_.nodes_[tree_.nodes_[node].first_child + i];
+      if (child.whole == kNone) continue;
+      const WholeLight& light = tree_.wholes_[child.whole].body;
+      block.set(i, light, luminance(tree_.emitters_[light.emitters.front()].radiance));
+      tree_.nodes_[node].block = static_cast<std::uint32_t>(tree_.blocks_.size());
+    }
+    if (tree_.nodes_[node].block != kNone) tree_.blocks_.push_back(block);
   }
 
   /// Splits items into those of up to kWidth children: again and again the part of most power in two.
@@ -115,7 +129,9 @@ class LightTree::Builder {
 };
 
 LightTree::LightTree(std::span<const Emitter> emitters)
-    : emitters_(emitters), views_(emitters.begin(), emitters.end()) {
+    : emitters_(emitters),
+      views_(emitters.begin(), emitters.end()),
+      weigh_wholes_(all_weigh_wholes().front().function) {
   for (WholeLight& light : find_whole_lights(emitters)) {
     BodyMesh mesh(emitters, light);
     wholes_.push_back({std::move(light), std::move(mesh)});
@@ -136,22 +152,12 @@ bool LightTree::is_light(const Node& node, const Vec3& x) const {
 /// last factor, of other nodes an estimate. 0 only if no emitter of the node can contribute.
 double LightTree::importance(const Node& node, const LightQuery& at) const {
   const Reflection& reflection = at.reflection;
-  if (node.whole != kNone) {
-    const WholeLight& whole = wholes_[node.whole].body;
-    const SphereCone cone(whole.centre, whole.radius, at.x);
-    if (cone.can_be_sampled()) {
-      const double irradiance = luminance(emitters_[whole.emitters.front()].radiance) * cone.solid_angle() *
-                                cone.mean_cosine(Vec3d(at.n));
-      if (reflection.peak == 0) return irradiance * reflection.diffuse;
-      return irradiance * reflection.mean(Vec3(cone.axis()), static_cast<float>(cone.one_minus_cos()));
-    }
-  }
   const double irradiance = irradiance_from(node, at);
   if (reflection.peak == 0) return irradiance * reflection.diffuse;
   return irradiance * node.importance.reflected(at.x, reflection);
 }
 
-/// Of a node that is no whole light.
+/// Of a node that is no whole light as seen from there.
 double LightTree::irradiance_from(const Node& node, const LightQuery& at) const {
   if (node.quad != kNone && is_light(node, at.x)) return quads_[node.quad].view().far_importance(at.x, at.n);
   if (node.children != 0) return node.importance(at.x, at.n);
@@ -172,8 +178,12 @@ LightTree::Choice LightTree::choice(std::uint32_t index, double pmf) const {
 
 LightTree::Weights LightTree::weigh_children(const Node& node, const LightQuery& at) const {
   Weights weights;
+  WholeBlock::Values of_whole;
+  const bool has_wholes = node.block != kNone;
+  if (has_wholes) weigh_wholes_(blocks_[node.block], node.children, at, of_whole);
   for (std::uint32_t i = 0; i < node.children; ++i) {
-    weights.of_child[i] = importance(nodes_[node.first_child + i], at);
+    const bool weighed = has_wholes && of_whole[i] >= 0;
+    weights.of_child[i] = weighed ? double{of_whole[i]} : importance(nodes_[node.first_child + i], at);
     weights.sum += weights.of_child[i];
   }
   return weights;

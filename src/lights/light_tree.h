@@ -9,6 +9,7 @@
 #include "src/lights/light_bounds.h"
 #include "src/lights/light_sampler.h"
 #include "src/lights/quad_light.h"
+#include "src/lights/weigh_wholes.h"
 #include "src/lights/whole_light.h"
 
 namespace lemma {
@@ -59,6 +60,7 @@ class LightTree {
     std::uint32_t emitter = kNone;                // of a leaf
     std::uint32_t whole = kNone;                  // index into wholes_, or ...
     std::uint32_t quad = kNone;                   // ... into quads_, if it is one
+    std::uint32_t block = kNone;                  // index into blocks_, if a child is a whole light
   };
   /// The nodes of an emitter, and of the whole light or the quad it belongs to if it does.
   struct Place {
@@ -66,7 +68,7 @@ class LightTree {
   };
   class Builder;
 
-  static constexpr std::size_t kWidth = 16;  // children of a node at most
+  static constexpr std::size_t kWidth = WholeBlock::kSize;  // children of a node at most
 
   /// Importances of a node's children.
   struct Weights {
@@ -83,7 +85,9 @@ class LightTree {
   std::vector<EmitterView> views_;  // by emitter
   std::vector<Whole> wholes_;
   std::vector<QuadLight> quads_;
-  std::vector<Node> nodes_;    // the root first
+  std::vector<Node> nodes_;         // the root first
+  std::vector<WholeBlock> blocks_;  // whole lights by the places of a node's children
+  decltype(WeighWholes::function) weigh_wholes_;
   std::vector<Place> places_;  // by emitter
 };
 

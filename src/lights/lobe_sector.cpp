@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/core/warp.h"
 #include "src/lights/tangent.h"
 
 namespace lemma {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Over a cone so much narrower than the lobe, directions uniform over it are better ones anyway.
 constexpr float kNarrowest = 0.5f;
@@ -33,7 +32,7 @@ LobeSector::LobeSector(const Reflection& reflection, const SphereCone& cone)
   const bool holds_opposite = apart + cone_size >= 2;
   const float outer = holds_opposite ? 2.0f : middle + reach;
   const bool turns_around = !beside_ || cone_sine >= sine;
-  const float half_turn = turns_around ? static_cast<float>(kPi) : std::asin(cone_sine / sine);
+  const float half_turn = turns_around ? kPi : std::asin(cone_sine / sine);
 
   // Both ways of sampling waste a part of what they draw: the sector what misses the cone, if the outline's
   // mean over the cone is right; the cone where the lobe is dark: by the second moment of a lobe in its
@@ -41,7 +40,7 @@ LobeSector::LobeSector(const Reflection& reflection, const SphereCone& cone)
   const float fallen = std::exp((inner - outer) / width);
   const float mass = width * half_turn * (1 - fallen);  // of half the sector, over the density at its edge
   const float lobe = reflection.mean(Vec3(axis_), cone_size) - reflection.diffuse;
-  const float kept = lobe * cone_size * static_cast<float>(kPi);
+  const float kept = lobe * cone_size * kPi;
   const float drawn = reflection.peak * std::exp(-inner / width) * mass;
   if (!(kept * (2 * width + cone_size) > 2 * width * drawn)) return;
   inner_ = inner, fallen_ = fallen, half_turn_ = half_turn;
@@ -52,9 +51,11 @@ LobeSector::LobeSector(const Reflection& reflection, const SphereCone& cone)
 Vec3d LobeSector::sample(const Vec2& u) const {
   const double below =
       std::clamp(inner_ - width_ * std::log1p(double{u.x} * (fallen_ - 1)), 0.0, 2.0);  // 1 - cos
-  const double sine = std::sqrt(below * (2 - below)), phi = half_turn_ * (2 * double{u.y} - 1);
+  const double sine = std::sqrt(below * (2 - below));
+  const auto [sin_phi, cos_phi] =
+      sin_cos_turn(half_turn_ * (0.5 * std::numbers::inv_pi) * (2 * double{u.y} - 1));
   const Vec3d t = beside_ ? normalize(cross(mirror_, axis_)) : tangent(mirror_), s = cross(t, mirror_);
-  return normalize(mirror_ * (1 - below) + (s * std::cos(phi) + t * std::sin(phi)) * sine);
+  return normalize(mirror_ * (1 - below) + (s * cos_phi + t * sin_phi) * sine);
 }
 
 PdfSolidAngle LobeSector::pdf(const Vec3d& w) const {

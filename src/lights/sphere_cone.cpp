@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "src/core/warp.h"
 #include "src/lights/tangent.h"
 
 namespace lemma {
@@ -32,18 +33,10 @@ bool SphereCone::holds(const Vec3d& w) const {
 
 Vec3d SphereCone::sample(const Vec2& u) const {
   const double below_axis = u.x * one_minus_cos_;  // 1 - cos of the angle to the axis
-  const double sine = std::sqrt(below_axis * (2 - below_axis)), phi = kTwoPi * u.y;
+  const double sine = std::sqrt(below_axis * (2 - below_axis));
+  const auto [sin_phi, cos_phi] = sin_cos_turn(double{u.y});
   const Vec3d s = tangent(axis_), t = cross(axis_, s);
-  return axis_ * (1 - below_axis) + (s * std::cos(phi) + t * std::sin(phi)) * sine;
-}
-
-double SphereCone::mean_cosine(const Vec3d& n) const {
-  const double cos_half = 1 - one_minus_cos_;
-  const double sin_half = std::sqrt(one_minus_cos_ * (1 + cos_half));
-  const double cos_n = dot(n, axis_), sin_n = std::sqrt(std::max(0.0, 1 - cos_n * cos_n));
-  const double across = cos_n * cos_half, along = sin_n * sin_half;
-  const double largest = cos_n > cos_half ? 1 : across + along;
-  return 0.5 * (std::max(largest, 0.0) + std::max(across - along, 0.0));
+  return axis_ * (1 - below_axis) + (s * cos_phi + t * sin_phi) * sine;
 }
 
 }  // namespace lemma

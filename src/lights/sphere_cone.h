@@ -32,12 +32,10 @@ class SphereCone {
   /// Unit direction, uniform over the cone, for u uniform in [0,1)^2.
   [[nodiscard]] Vec3d sample(const Vec2& u) const;
 
-  /// About the mean over the cone of max(0, n . w): the mean of its largest and its smallest value. Positive
-  /// exactly if the cone reaches above the horizon of n.
-  [[nodiscard]] double mean_cosine(const Vec3d& n) const;
+  /// The squared sine of the largest half angle that can be sampled.
+  static constexpr float kLargestSin2 = 0.98f;
 
  private:
-  static constexpr double kLargestSin2 = 0.98;
   static bool can_be_sampled(double radius, double distance2) {
     return radius * radius < kLargestSin2 * distance2;
   }

@@ -6,9 +6,10 @@
 
 namespace lemma {
 
-/// Any unit vector at right angles to the unit vector n.
+/// Any unit vector at right angles to the unit vector n: as frame_around, in double.
 [[nodiscard]] inline Vec3d tangent(const Vec3d& n) {
-  return normalize(cross(n, std::abs(n.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0)));
+  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z);
+  return {1 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
 }
 
 }  // namespace lemma

@@ -1,3 +1,4 @@
+#include "src/core/warp.h"
 #include "src/lights/light_tree.h"
 #include "src/lights/lobe_sector.h"
 #include "src/lights/sphere_cone.h"
@@ -6,6 +7,8 @@
 namespace lemma {
 namespace {
 
+constexpr float kLargestBelow1 = 1 - 0x1p-24f;
+
 /// A whole light as seen from a point: directions uniform over the cone of its bounding sphere, or drawn by
 /// the lobe of the surface there.
 class WholeView {
@@ -13,10 +16,11 @@ class WholeView {
   WholeView(const WholeLight& light, const LightQuery& at)
       : cone_(light.centre, light.radius, at.x), lobe_(at.reflection, cone_) {}
 
-  /// For `choice` uniform in [0, 1); nothing if the direction misses the cone.
-  [[nodiscard]] std::optional<Vec3d> sample(double choice, const Vec2& u) const {
-    if (choice >= lobe_.share()) return cone_.sample(u);
-    const Vec3d w = lobe_.sample(u);
+  /// For u uniform in [0, 1)^2; nothing if the direction misses the cone.
+  [[nodiscard]] std::optional<Vec3d> sample(const Sampler::ChoicePair& u) const {
+    const auto [by_lobe, x] = decide(u.x, lobe_.share());
+    if (!by_lobe) return cone_.sample({x, u.y});
+    const Vec3d w = lobe_.sample({x, u.y});
     return cone_.holds(w) ? std::optional(w) : std::nullopt;
   }
 
@@ -41,11 +45,11 @@ class TreeSampler final : public LightSampler {
   explicit TreeSampler(std::span<const Emitter> emitters) : emitters_(emitters), tree_(emitters) {}
 
   std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const override {
-    const double choice = random.next_bits() * 0x1p-32;
-    const Vec2 u = random.next_2d();
-    const auto light = tree_.choose(at, choice);
+    const auto [x, y] = random.next_choice_pair();
+    const auto light = tree_.choose(at, x);
     if (!light) return std::nullopt;
-    if (light->whole != nullptr) return sample_whole(at, *light, u);
+    if (light->whole != nullptr) return sample_whole(at, *light, {light->u, y});
+    const Vec2 u(std::min(static_cast<float>(light->u), kLargestBelow1), y);
     return light->quad != nullptr ? sample_quad(at, *light, u) : sample_emitter(at, *light, u);
   }
 
@@ -62,9 +66,9 @@ class TreeSampler final : public LightSampler {
 
  private:
   [[nodiscard]] std::optional<LightSample> sample_whole(const LightQuery& at, const LightTree::Choice& light,
-                                                        const Vec2& u) const {
+                                                        const Sampler::ChoicePair& u) const {
     const WholeView seen(light.whole->body, at);
-    const auto w = seen.sample(light.u, u);
+    const auto w = seen.sample(u);
     if (!w) return std::nullopt;
     const auto point = light.whole->mesh.first_hit(at.x, *w);
     if (!point) return std::nullopt;

@@ -27,9 +27,10 @@ class TileRow {
     std::array<Ray, kTileSize> rays;
     std::array<std::optional<Sampler>, kTileSize> random;
     std::array<std::optional<Hit>, kTileSize> hits;
+    const RenderSettings settings = settings_;  // so that what depends on them alone is found once
     for (std::size_t i = 0; i < count; ++i) {
       const int x = tile_.x + static_cast<int>(i);
-      random[i].emplace(settings_.seed, pixel_index(x), sample, settings_.sequence, settings_.replicates);
+      random[i].emplace(settings.seed, pixel_index(x), sample, settings.sequence, settings.replicates);
       const Vec2 u = random[i]->next_2d();
       rays[i] = camera_.ray_through(static_cast<float>(x) + u.x, static_cast<float>(y_) + u.y);
     }

@@ -60,12 +60,12 @@ class PhongLobe {
 
   [[nodiscard]] Vec3 sample(const Vec2& u) const {
     const float x = sample_one_minus_cos(n_, u.x);
-    const float phi = (2 * u.y - 1) * largest_azimuth(x);
+    const auto [sin_phi, cos_phi] = sin_cos_turn((u.y - 0.5f) * kInvPi * largest_azimuth(x));
     const float sin_r = sin_of_r();
     const Vec3 towards_normal =
         sin_r > 0 ? Vec3(-r_.x * r_.z / sin_r, -r_.y * r_.z / sin_r, sin_r) : Vec3(1, 0, 0);
     const Vec3 side = cross(r_, towards_normal);
-    return r_ * (1 - x) + (towards_normal * std::cos(phi) + side * std::sin(phi)) * sine(x);
+    return r_ * (1 - x) + (towards_normal * cos_phi + side * sin_phi) * sine(x);
   }
 
  private:
@@ -101,8 +101,9 @@ class BlinnLobe {
 
   [[nodiscard]] Vec3 sample(const Vec2& u) const {
     const float x = sample_one_minus_cos(n_, u.x);
-    const float phi = 2 * kPi * u.y, sin_h = sine(x);
-    const Vec3 h(sin_h * std::cos(phi), sin_h * std::sin(phi), 1 - x);
+    const auto [sin_phi, cos_phi] = sin_cos_turn(u.y);
+    const float sin_h = sine(x);
+    const Vec3 h(sin_h * cos_phi, sin_h * sin_phi, 1 - x);
     return normalize(h * (2 * dot(wo_, h)) - wo_);
   }
 

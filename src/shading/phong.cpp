@@ -53,12 +53,24 @@ float diffuse_probability(const Rgb& kd, const Rgb& ks) {
   return specular > 0 ? diffuse / (diffuse + specular) : 1.0f;
 }
 
+float outline_diffuse(const Rgb& kd, const Rgb& ks) {
+  return (luminance(kd) + kLeastDiffuse * luminance(ks)) * kInvPi;
+}
+
+Reflection outline_of(const Rgb& kd, const Rgb& ks, float exponent, const BrdfOptions& options) {
+  const float n = options.lobe == Lobe::phong ? exponent : exponent / 4;
+  return {.diffuse = outline_diffuse(kd, ks),
+          .peak = luminance(ks) * specular_factor(exponent, options),
+          .width = 1 / (n + 1)};
+}
+
 }  // namespace
 
 Material with_kd(const Material& material, const Rgb& kd) {
   Material other = material;
   other.kd = kd;
   other.diffuse_probability = diffuse_probability(kd, material.ks);
+  other.outline.diffuse = outline_diffuse(kd, material.ks);
   return other;
 }
 
@@ -69,16 +81,14 @@ Material make_material(const Rgb& kd, const Rgb& ks, float exponent, const BrdfO
           .lobe = options.lobe,
           .sampling = options.sampling,
           .specular_factor = specular_factor(exponent, options),
-          .diffuse_probability = diffuse_probability(kd, ks)};
+          .diffuse_probability = diffuse_probability(kd, ks),
+          .outline = outline_of(kd, ks, exponent, options)};
 }
 
 Reflection outline(const Material& m, const Vec3& mirror) {
-  const float kd = luminance(m.kd), ks = luminance(m.ks);
-  const float n = m.lobe == Lobe::phong ? m.exponent : m.exponent / 4;
-  return {.mirror = mirror,
-          .diffuse = (kd + kLeastDiffuse * ks) * kInvPi,
-          .peak = ks * m.specular_factor,
-          .width = 1 / (n + 1)};
+  Reflection reflection = m.outline;
+  reflection.mirror = mirror;
+  return reflection;
 }
 
 float largest_albedo(const Material& m) {
@@ -107,6 +117,12 @@ std::optional<BrdfSample> Phong<Specular>::sample(const Vec3& wo, float choice, 
   }
   return with_lobe(material_, wo,
                    [&](const auto& lobe) { return sample_mixture(material_, lobe, choice, u); });
+}
+
+template <bool Specular>
+std::optional<BrdfSample> Phong<Specular>::sample(const Vec3& wo, const Sampler::ChoicePair& u) const {
+  const auto [diffuse, x] = decide(u.x, material_.diffuse_probability);
+  return sample(wo, diffuse ? 0.0f : 1.0f, {x, u.y});
 }
 
 template <bool Specular>

@@ -5,6 +5,7 @@
 #include "src/core/pdf.h"
 #include "src/core/reflection.h"
 #include "src/core/rgb.h"
+#include "src/core/sampler.h"
 #include "src/core/vec.h"
 #include "src/shading/brdf_options.h"
 
@@ -20,6 +21,7 @@ struct Material {
 
   float specular_factor = 0;      // in front of the lobe, as Lobe and PhongNorm say [sr^-1]
   float diffuse_probability = 1;  // kd : ks, by their channel sums; the choice of p6
+  Reflection outline = {};        // for any mirror direction
 };
 
 /// Fills in the derived values. The factor of Blinn's lobe makes its albedo at normal incidence 1 for ks = 1:
@@ -73,6 +75,9 @@ class Phong {
   /// directions
   ///   of the truncated lobe do by rounding alone
   [[nodiscard]] std::optional<BrdfSample> sample(const Vec3& wo, float choice, const Vec2& u) const;
+
+  /// The same for a pair uniform in [0, 1)^2, of which x also decides.
+  [[nodiscard]] std::optional<BrdfSample> sample(const Vec3& wo, const Sampler::ChoicePair& u) const;
 
  private:
   [[nodiscard]] bool is_lambert() const;

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <set>
 #include <vector>
 
 #include "src/core/sampler.h"
+#include "src/core/warp.h"
 #include "tests/support/statistics.h"
 
 namespace lemma {
@@ -100,6 +103,66 @@ TEST(Sobol, NumbersDependOnSeedPixelSampleAndDraw) {
       }
     }
   }
+}
+
+/// The pair for a choice is that of next_2d, with more bits behind those of x; they differ from pixel to
+/// pixel.
+TEST(Sampler, ChoicePairsArePairsWithMoreBits) {
+  std::set<double> rests;
+  for (std::uint32_t pixel = 0; pixel < 100; ++pixel) {
+    Sampler coarse(10, pixel, 5, Sequence::sobol), fine(10, pixel, 5, Sequence::sobol);
+    for (int draw = 0; draw < 3; ++draw) {
+      const Vec2 u = coarse.next_2d();
+      const auto [x, y] = fine.next_choice_pair();
+      ASSERT_EQ(u.x, std::floor(std::ldexp(x, 24)) * 0x1p-24);
+      ASSERT_EQ(u.y, y);
+      rests.insert(std::ldexp(x, 32) - std::floor(std::ldexp(x, 32)));
+    }
+  }
+  EXPECT_GT(rests.size(), 290u);  // of 2^21
+}
+
+TEST(Sampler, DecisionsLeaveAUniformNumber) {
+  constexpr double last = 1 - 0x1p-53;
+  for (const double p : {0.0, 1e-6, 0.25, 1 - 1e-6, 1.0}) {
+    for (const double rest : {0.0, 0.25, 0.5}) {
+      const auto below = decide(rest * p, p);
+      EXPECT_EQ(below.first, p > 0);
+      if (p > 0) {
+        EXPECT_FLOAT_EQ(below.rest, static_cast<float>(rest));
+      }
+      if (p == 1) continue;
+      const auto above = decide(p + rest * (1 - p), p);
+      EXPECT_FALSE(above.first);
+      EXPECT_NEAR(above.rest, rest, 1e-9);
+    }
+    EXPECT_EQ(decide(last, p).first, p == 1);
+    EXPECT_EQ(decide(last, p).rest, 1 - 0x1p-24f);
+  }
+}
+
+/// Roundings of the angle, of 2 pi and of their product, move it by 3 u pi / 4; the series and its last steps
+/// round some values below 1: 3 u. Quarter turns are exact.
+template <class T>
+void expect_sin_cos_turn() {
+  constexpr T tolerance = 3 * std::numeric_limits<T>::epsilon();  // 6 u
+  for (int i = -1000; i <= 1000; ++i) {
+    const T u = static_cast<T>(i) / 1000;
+    const long double angle = 2 * std::numbers::pi_v<long double> * static_cast<long double>(u);
+    const auto [sine, cosine] = sin_cos_turn(u);
+    EXPECT_NEAR(static_cast<double>(sine - std::sin(angle)), 0, tolerance) << u;
+    EXPECT_NEAR(static_cast<double>(cosine - std::cos(angle)), 0, tolerance) << u;
+  }
+  for (const int quarter : {-4, -3, -2, -1, 0, 1, 2, 3, 4}) {
+    const auto [sine, cosine] = sin_cos_turn(static_cast<T>(quarter) / 4);
+    EXPECT_EQ(std::abs(sine), quarter % 2 == 0 ? 0 : 1);
+    EXPECT_EQ(std::abs(cosine), quarter % 2 == 0 ? 1 : 0);
+  }
+}
+
+TEST(Warp, SineAndCosineOfTurns) {
+  expect_sin_cos_turn<float>();
+  expect_sin_cos_turn<double>();
 }
 
 }  // namespace
