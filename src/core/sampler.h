@@ -90,8 +90,8 @@ class Sampler {
     }
     const std::uint64_t keys = next_keys(), more = next_keys();
     const std::uint32_t index = shuffled_index(reversed_index_, low(keys));
-    return {to_unit(scrambled_sobol_x(index, high(keys)), high(more)),
-            to_unit(scrambled_sobol_y(index, low(more)))};
+    const std::uint64_t point = scrambled_sobol(index, high(keys), low(more));
+    return {to_unit(high(point), high(more)), to_unit(low(point))};
   }
 
   [[nodiscard]] Vec2 next_2d() {
@@ -101,8 +101,8 @@ class Sampler {
     }
     const std::uint64_t keys = next_keys();
     const std::uint32_t index = shuffled_index(reversed_index_, low(keys));
-    return {to_unit(scrambled_sobol_x(index, high(keys))),
-            to_unit(scrambled_sobol_y(index, low(next_keys())))};
+    const std::uint64_t point = scrambled_sobol(index, high(keys), low(next_keys()));
+    return {to_unit(high(point)), to_unit(low(point))};
   }
 
  private:

@@ -12,6 +12,13 @@ namespace lemma {
   return ((x & 0x55555555u) << 1) | ((x & 0xAAAAAAAAu) >> 1);
 }
 
+[[nodiscard]] constexpr std::uint64_t reverse_bits(std::uint64_t x) {
+  x = __builtin_bswap64(x);
+  x = ((x & 0x0F0F0F0F0F0F0F0Fu) << 4) | ((x >> 4) & 0x0F0F0F0F0F0F0F0Fu);
+  x = ((x & 0x3333333333333333u) << 2) | ((x >> 2) & 0x3333333333333333u);
+  return ((x & 0x5555555555555555u) << 1) | ((x >> 1) & 0x5555555555555555u);
+}
+
 /// A bijection in which each bit depends on itself and the lower ones alone: of the reversed bits of a number
 /// it is Owen's nested random permutation of base 2, drawn by `key`.
 /// Source: Laine, Karras, Stratified Sampling for Stochastic Transparency, EGSR 2011, with the constants of
@@ -37,9 +44,9 @@ namespace lemma {
 }
 
 // Point `index` of Sobol's (0, 2)-sequence in an order and with a scrambling of its own for each set of keys,
-// as two fractions of 2^32: the coordinates of shuffled_index(). The first N points are stratified for every
-// N; points of different keys are independent, so that pairs of dimensions may be padded. Source: Burley,
-// Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
+// as two fractions of 2^32: scrambled_sobol() of shuffled_index(). The first N points are stratified for
+// every N; points of different keys are independent, so that pairs of dimensions may be padded. Source:
+// Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
 
 /// The place that the point with this index takes in the order of `key`.
 [[nodiscard]] constexpr std::uint32_t shuffled_index(std::uint32_t reversed_index, std::uint32_t key) {
@@ -50,8 +57,12 @@ namespace lemma {
   return reverse_bits(permute_upwards(shuffled, key));
 }
 
-[[nodiscard]] constexpr std::uint32_t scrambled_sobol_y(std::uint32_t shuffled, std::uint32_t key) {
-  return reverse_bits(permute_upwards(pascal_digits(shuffled), key));
+/// Both, x in the upper half: their digits are reversed together.
+[[nodiscard]] constexpr std::uint64_t scrambled_sobol(std::uint32_t shuffled, std::uint32_t key_x,
+                                                      std::uint32_t key_y) {
+  const std::uint32_t x = permute_upwards(shuffled, key_x);
+  const std::uint32_t y = permute_upwards(pascal_digits(shuffled), key_y);
+  return reverse_bits(std::uint64_t{y} << 32 | x);
 }
 
 }  // namespace lemma

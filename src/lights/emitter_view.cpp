@@ -20,6 +20,7 @@ EmitterView::EmitterView(const Emitter& emitter)
       power_(static_cast<float>(double{luminance(emitter.radiance)} * area(emitter.shape))) {
   size_ = longest_edge(emitter.shape);
   far_ = kFar * size_;
+  aside2_ = kAside * kAside * size_ * size_;
 }
 
 double EmitterView::far_importance(const Vec3& x, const Vec3& n) const {
