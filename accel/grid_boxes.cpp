@@ -64,13 +64,23 @@ Box wide_cell(const GridMargins& margins, const GridLevel& level, std::uint32_t 
   return {level.lo + place * size - margin, level.lo + (place + Vec3d(1)) * size + margin};
 }
 
-/// Bounds of the triangle's part in the box, each coordinate rounded to the next float.
+/// Bounds of the triangle's part in the box, each coordinate rounded to the next float. Of a triangle smaller
+/// than the box on each axis, those of its own bounds' part, which are about as tight and found in a tenth of
+/// the time.
 Bounds bounds_within(const Box& box, const Triangle& triangle) {
   Bounds whole, part;
   whole.add(triangle);
-  bool inside = true;
-  for (int k = 0; k < 3; ++k) inside &= whole.lo[k] >= box.lo[k] && whole.hi[k] <= box.hi[k];
+  bool inside = true, small = true;
+  for (int k = 0; k < 3; ++k) {
+    inside &= whole.lo[k] >= box.lo[k] && whole.hi[k] <= box.hi[k];
+    small &= whole.hi[k] - whole.lo[k] < box.hi[k] - box.lo[k];
+    part.lo[k] = std::max(whole.lo[k], static_cast<float>(box.lo[k]));
+    part.hi[k] = std::min(whole.hi[k], static_cast<float>(box.hi[k]));
+    small &= part.lo[k] <= part.hi[k];
+  }
   if (inside) return whole;
+  if (small) return part;
+  part = {};
   Polygon polygon(triangle);
   polygon.clip_to(box, whole);
   for (const Vec3d& corner : polygon.corners()) part.add(Vec3(corner));
@@ -147,7 +157,7 @@ class Fitting {
   void fit_parts(std::span<Item> items, const GridCells::Record& list) const {
     sort_into_parts(items);
     const std::size_t parts = GridCells::part_count(items.size());
-    float* boxes = grid_.vertices.data() + (grid_.part_boxes(list) - grid_.vertices.data());
+    float* boxes = grid_.part_boxes(list);
     for (std::size_t i = 0; i < items.size(); ++i) grid_.references[list.begin + i] = items[i].triangle;
     for (std::size_t p = 0; p < parts; ++p) {
       const std::size_t begin = p * GridCells::kPart;

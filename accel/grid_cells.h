@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "accel/accelerator.h"
+#include "src/core/large_vector.h"
 #include "src/core/triangle.h"
 
 namespace lemma {
@@ -59,7 +60,7 @@ struct GridCells {
   std::vector<std::uint32_t> near;
   std::vector<Record> records;            // of the occupied cells, in their order
   std::vector<std::uint32_t> references;  // triangle indices, list by list
-  std::vector<float> vertices;            // of the references, see packed()
+  LargeVector<float> vertices;            // of the references, see packed()
   /// Where rays may start: hits of those that start further away err by more than the cells' margin.
   Vec3 trusted_lo{0}, trusted_hi{0};
   Vec3d lo{0}, hi{0};  // the scene
@@ -94,6 +95,9 @@ struct GridCells {
 
   /// Where a list has more than one part, their boxes: six arrays, lo.x lo.y lo.z hi.x hi.y hi.z.
   [[nodiscard]] const float* part_boxes(const Record& list) const {
+    return vertices.data() + 9 * (list.begin - box_places(list.count));
+  }
+  [[nodiscard]] float* part_boxes(const Record& list) {
     return vertices.data() + 9 * (list.begin - box_places(list.count));
   }
 
