@@ -53,7 +53,7 @@ TEST(Agreement, CornellBoxWithTheLightInTheCeiling) {
 }
 
 TEST(Agreement, ManyLights) {
-  expect_agreement({.scene = smaller(test::many_lights(), 15), .usual_bias = 0.08}, kScenes);
+  expect_agreement({.scene = smaller(test::many_lights(), 15)}, kScenes);
 }
 
 TEST(Agreement, OverlappingLights) {

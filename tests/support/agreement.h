@@ -14,8 +14,6 @@ struct AgreementCase {
   /// A surface that the camera sees touches a light: samples of the light's area then have infinite variance
   /// where nothing weighs them (a distance e away, 1 / e^2 of a part e^2 of them), and are left out.
   bool touches_light = false;
-  /// The largest bias [part of the image mean] that a test of a choice may miss in the usual form.
-  double usual_bias = 0.05;
 };
 
 /// Whether all combinations of {weights and integrator} x {light sampling} x {BRDF sampling} x {roulette} x
@@ -33,8 +31,8 @@ struct AgreementCase {
 /// The environment variable LEMMA_AGREEMENT is the bias [percent of the image mean] that each test of a
 /// choice must find with the probability kPower: it takes the whole product and the samples that this takes.
 /// Without it, about a quarter of the combinations is rendered, in which every two choices meet, and each
-/// choice gets the same time, about; what it sees is printed, and what it may miss bounded by the case. The
-/// tests of the other kinds find what their own noise allows, which is printed.
+/// choice gets the same time, about, or more until it sees 5 %; what it sees is printed. The tests of the
+/// other kinds find what their own noise allows, which is printed.
 ///
 /// Limits are those of Student's t with Sidak's correction for the number of tests, which holds for tests
 /// that share a reference too (Sidak 1967); the false alarms are shared equally by the five kinds of tests

@@ -100,8 +100,8 @@ void Pool::measure(const Goal& goal) {
   learn_noise();
   allot(std::min(kFirstPart * work_for(wanted_variance(goal)), most));
   render(paired_);
-  for (int turn = 0; turn < kMostTurns && std::isinf(goal.most_cost); ++turn) {
-    const double excess = detected_bias(goal) / goal.bias;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    const double excess = detected_bias(goal) / goal.most_bias;
     if (excess <= 1) break;
     render_more(excess * excess);
   }

@@ -53,7 +53,8 @@ struct Goal {
   double bias = 0;
   double false_alarm = 0;  // of all tests of the family together
   int tests = 1;
-  double most_cost = std::numeric_limits<double>::infinity();  // samples of all pixels x their cost
+  double most_cost = std::numeric_limits<double>::infinity();  // samples of all pixels x their cost, but ...
+  double most_bias = std::numeric_limits<double>::infinity();  // ... to find this one, whatever it costs
 
   /// That |t| stays below with this probability when there is no bias.
   [[nodiscard]] double limit(double freedom) const;
