@@ -12,7 +12,7 @@ struct GridMargins {
 
 /// Fits the boxes of the grid's records around the parts of the triangles in their cells, on several threads.
 /// A ray that hits a triangle where it passes the cell, margins included, passes the box, as float32 slabs
-/// compute it (BoxTest in grid_trace.cpp).
+/// compute it (BoxTest in grid_boxes-inl.h).
 /// Sorts lists of several parts so that those are compact, and fits their boxes as well.
 void fit_boxes(std::span<const Triangle> triangles, const GridMargins& margins, GridCells& grid);
 

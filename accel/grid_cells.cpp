@@ -19,7 +19,9 @@ namespace {
 
 constexpr double kMaxCells = 1u << 28;  // a cell's index fits an int
 
-constexpr std::size_t kCrowd = 1000;   // triangles of a cell that are worth a grid of their own
+/// Triangles of a cell that are worth a grid of their own. Few cells hold so many: boxes of 16 are as fast up
+/// to there, with half of the memory and build time (1000 and 3000 were slower or the same).
+constexpr std::size_t kCrowd = 8000;
 constexpr double kChildDensity = 0.5;  // its cells a triangle
 constexpr double kMaxCopies = 8;       // its references a triangle; more: they do not come apart
 constexpr int kMaxDepth = 3;           // grids within grids

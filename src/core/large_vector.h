@@ -22,10 +22,14 @@ struct LargePageAllocator {
   [[nodiscard]] T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
     void* memory = ::operator new(bytes, alignment(count));
+#ifdef MADV_HUGEPAGE
     if (bytes >= kPage) static_cast<void>(madvise(memory, bytes / kPage * kPage, MADV_HUGEPAGE));
+#endif
     return static_cast<T*>(memory);
   }
-  void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count)); }
+  void deallocate(T* memory, std::size_t count) {
+    ::operator delete(memory, alignment(count));
+  }
 
   bool operator==(const LargePageAllocator&) const = default;
 

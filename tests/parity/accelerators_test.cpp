@@ -134,7 +134,7 @@ TEST(GridParity, RangesThatEndAtTheHit) {
 /// A small sphere of many triangles in a large box, in a cell of its own: the cell becomes a grid.
 TEST(GridParity, CrowdedCells) {
   auto triangles = test::inward_box({-10, -10, -10}, {10, 10, 10});
-  const auto ball = test::sphere_mesh({3.1f, 2.2f, 1.3f}, 0.05f, 30, 40);
+  const auto ball = test::sphere_mesh({3.1f, 2.2f, 1.3f}, 0.05f, 70, 70);
   triangles.insert(triangles.end(), ball.begin(), ball.end());
   ASSERT_GT(build_grid_cells(triangles, {}).levels.size(), 1u);
   const auto grid = make("grid", triangles), brute = make("brute", triangles);

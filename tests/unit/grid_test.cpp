@@ -75,11 +75,11 @@ std::optional<std::uint32_t> occupied_cell_at(const GridCells& grid, const GridL
   return grid.is_occupied(level, cell) ? std::optional(cell) : std::nullopt;
 }
 
-/// A scene's level and others: 11,000 triangles in 1000 cells, of which 10,000 in a hundredth of the volume.
+/// A scene's level and another: 11,000 triangles in 1000 cells, of which 10,000 within one.
 GridCells grid_of_levels(std::vector<Triangle>& triangles) {
   triangles = test::random_triangles(1000, 0.05f, 4);
   for (Triangle t : test::random_triangles(10000, 0.02f, 7)) {
-    t = {t.v0 * 0.2f, t.v1 * 0.2f, t.v2 * 0.2f};
+    t = {t.v0 * 0.05f, t.v1 * 0.05f, t.v2 * 0.05f};
     triangles.push_back(t);
   }
   return build_grid_cells(triangles, {GridResolution::Rule::density, 1000});
