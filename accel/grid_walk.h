@@ -40,9 +40,7 @@ struct GridCrossing {
     const double x = std::abs(speed[0]), y = std::abs(speed[1]), z = std::abs(speed[2]);
     const std::size_t main = x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
     const std::array<int, 3> strides{1, level.counts[0], level.counts[0] * level.counts[1]};
-    const auto entry = [&](std::size_t k) {
-      return std::clamp(start[k] + enter * speed[k], 0.0, static_cast<double>(level.counts[k]));
-    };
+    const auto entry = [&](std::size_t k) { return within(start[k] + enter * speed[k], level.counts[k]); };
     const double first = entry(main);
     const int count = level.counts[main];
     slice = std::min(static_cast<int>(first), count - 1);
@@ -68,7 +66,12 @@ struct GridCrossing {
   /// before. As many as before where the limit is later.
   [[nodiscard]] LEMMA_INLINE int slices_until(double limit) const {
     const double end = (limit - enter) * slices_per_t + (2 + 0x1p-10) - to_plane;
-    return std::min(slices, static_cast<int>(std::clamp(end, 0.0, 2.0 * GridLevel::kMaxCellsPerAxis)));
+    return std::min(slices, static_cast<int>(within(end, 2 * GridLevel::kMaxCellsPerAxis)));
+  }
+
+  /// x clamped to [0, most]; 0 where it is not a number, as of rays that are not finite.
+  [[nodiscard]] LEMMA_INLINE static double within(double x, double most) {
+    return std::min(std::max(0.0, x), most);
   }
 
   /// One of the other two axes.
