@@ -25,8 +25,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Eurographics 1987; by slices after Wald, Ize, Kensler, Knoll, Parker, Ray Tracing Animated Scenes using
 /// Coherent Grid Traversal, ACM TOG 25(3), 2006, where they cut packets of rays.
 ///
-/// One word tells of all these cells whether they are occupied (GridCells::near): looking for words takes
-/// most of the time.
+/// One look tells of all these cells whether they are occupied (GridCells::near).
 ///
 /// Where a ray passes a cell's edge or corner within rounding either neighbour may be left out or come first:
 /// the margin of the cells covers both.
