@@ -87,18 +87,6 @@ Scene plate_in_furnace(const Material& material, const Vec3& towards_camera) {
   return scene;
 }
 
-/// Directional albedo of Blinn's lobe for ks = 1, by quadrature over half vectors: dwi = 4 (wo . h) dh.
-double blinn_albedo(float n, const Vec3& wo) {
-  const Material material = make_material({}, {1, 1, 1}, n, {.lobe = Lobe::blinn_phong});
-  return test::lobe_mean({0, 0, 1}, n, [&](const Vec3& h) {
-    const float cos_h = dot(wo, h);
-    const Vec3 wi = h * (2 * cos_h) - wo;
-    if (cos_h <= 0 || wi.z <= 0) return 0.0;
-    const double density = (n + 1) / (2 * M_PI) * std::pow(double{h.z}, double{n});
-    return double{Phong<true>(material).eval(wo, wi).g} * wi.z * 4 * cos_h / density;
-  });
-}
-
 /// Every BRDF with every integrator: kd + ks E(theta), E of the Phong lobe with n = 20 and the factor
 /// (n + 1) / (2 pi) by quadrature in double, 5 digits.
 TEST(Furnace, PlateReflectsItsDirectionalAlbedo) {
@@ -113,7 +101,7 @@ TEST(Furnace, PlateReflectsItsDirectionalAlbedo) {
   for (const auto& [angle, lobe_albedo] : phong) {
     for (const BrdfOptions& brdf : brdfs) {
       const Vec3 local = test::direction(angle, 0), towards_camera(local.x, local.z, local.y);
-      const double albedo = brdf.lobe == Lobe::blinn_phong     ? blinn_albedo(n, local)
+      const double albedo = brdf.lobe == Lobe::blinn_phong     ? test::blinn_albedo(n, local)
                             : brdf.norm == PhongNorm::n_plus_2 ? lobe_albedo * (n + 2) / (n + 1)
                                                                : lobe_albedo;
       const double expected = kd + ks * albedo;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "src/core/vec.h"
+#include "src/shading/phong.h"
 
 namespace lemma::test {
 
@@ -59,6 +60,19 @@ template <class G>
     }
   }
   return sum / rows / columns;
+}
+
+/// Directional albedo of Blinn's lobe for ks = 1, by the midpoint rule over half vectors, dwi =
+/// 4 (wo . h) dh.
+[[nodiscard]] inline double blinn_albedo(float n, const Vec3& wo) {
+  const Material material = make_material({}, {1, 1, 1}, n, {.lobe = Lobe::blinn_phong});
+  return lobe_mean({0, 0, 1}, n, [&](const Vec3& h) {
+    const float cos_h = dot(wo, h);
+    const Vec3 wi = h * (2 * cos_h) - wo;
+    if (cos_h <= 0 || wi.z <= 0) return 0.0;
+    const double density = (n + 1) / (2 * std::numbers::pi) * std::pow(double{h.z}, double{n});
+    return double{Phong<true>(material).eval(wo, wi).g} * wi.z * 4 * cos_h / density;
+  });
 }
 
 }  // namespace lemma::test
