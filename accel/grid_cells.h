@@ -119,12 +119,6 @@ struct GridCells {
   }
 };
 
-/// Numbers of cells an axis so that cells are about cubes and about `target` in all. An axis too short for
-/// one cell gets one, and the others share its part: flat and needle-shaped boxes need no case of their own.
-/// Source: Cleary, Wyvill, Analysis of an Algorithm for Fast Ray Tracing Using Uniform Space Subdivision,
-/// 1988.
-[[nodiscard]] std::array<int, 3> cell_counts(const Vec3d& extent, double target);
-
 /// Sorts the triangles into cells, on several threads; the result does not depend on how many.
 [[nodiscard]] GridCells build_grid_cells(std::span<const Triangle> triangles,
                                          const GridResolution& resolution);

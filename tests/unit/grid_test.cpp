@@ -6,6 +6,7 @@
 
 #include "accel/grid_cells.h"
 #include "accel/grid_overlap.h"
+#include "accel/grid_resolution.h"
 #include "accel/grid_trace.h"
 #include "src/core/warp.h"
 #include "tests/support/meshes.h"
