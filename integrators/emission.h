@@ -50,13 +50,43 @@ void look_from(const Vertex<M>& vertex, const World& world, LightQuery& at) {
   return top_of(scene, to_light, {1, triangle, 0, 0}).triangle != triangle;
 }
 
+/// Whether an emitter that is hit belongs to the whole light of a sample; then it is the sample's emitter.
+[[nodiscard]] inline bool meets(const World& world, const Hit& hit, LightSample& light) {
+  const std::uint32_t emitter = world.scene.facets[hit.triangle].emitter;
+  if (world.lights.whole_of(emitter) != light.whole) return false;
+  light.emitter = emitter;
+  light.to_light = light.wi * hit.t;
+  return true;
+}
+
+/// What the direction of a whole light's sample meets: one of the light's emitters, or something else.
+template <Model M>
+[[nodiscard]] LightFate look_at_whole(const World& world, const Vec3& x, Tracer& tracer, LightSample& light) {
+  const Ray ray{x, light.wi};
+  std::optional<Hit> hit = tracer.closest_hit(ray);
+  if (!hit) return LightFate::missed;
+  if constexpr (M.overlays) hit = top_of(world.scene, ray, *hit);
+  const Emitter* emitter = emitter_at(world.scene, *hit);
+  if (emitter == nullptr || !emits_towards(*emitter, x)) return LightFate::missed;
+  return meets(world, *hit, light) ? LightFate::seen : LightFate::missed;
+}
+
+/// What becomes of a light sample from x that is reflected there.
+template <Model M>
+[[nodiscard]] LightFate look_at_light(const World& world, const Vec3& x, Tracer& tracer, LightSample& light) {
+  if (light.whole != nullptr) return look_at_whole<M>(world, x, tracer, light);
+  const Ray to_light{x, light.to_light, 0, light.visible_until};
+  if (M.overlays && is_covered(world.scene, to_light, light.emitter)) return LightFate::covered;
+  return tracer.occluded(to_light) ? LightFate::hidden : LightFate::seen;
+}
+
 /// One light sample at a vertex: throughput f cos L / pdf times the Technique's weight (path.h); 0 if the
 /// light is not seen.
 template <Model M, class Technique, class Observer>
 [[nodiscard]] Rgb light_sample(const World& world, const Technique& technique, const Vertex<M>& vertex,
                                const LightQuery& query, const Rgb& throughput, Tracer& tracer,
                                Sampler& random, Observer& observer) {
-  const std::optional<LightSample> light = world.lights.sample(query, random);
+  std::optional<LightSample> light = world.lights.sample(query, random);
   const auto lost = [&](LightFate fate) {
     observer.light(vertex, light, fate, 0.0f, Rgb{});
     return Rgb{};
@@ -64,9 +94,8 @@ template <Model M, class Technique, class Observer>
   if (!light) return lost(LightFate::none);
   const auto [f_cos, pdf_brdf] = vertex.at(light->wi);
   if (is_black(f_cos)) return lost(LightFate::below);
-  const Ray to_light{vertex.origin(), light->to_light, 0, light->visible_until};
-  if (M.overlays && is_covered(world.scene, to_light, light->emitter)) return lost(LightFate::covered);
-  if (tracer.occluded(to_light)) return lost(LightFate::hidden);
+  const LightFate fate = look_at_light<M>(world, vertex.origin(), tracer, *light);
+  if (fate != LightFate::seen) return lost(fate);
   const float weight = technique.light_weight(light->pdf, pdf_brdf);
   const Rgb contribution = throughput * (f_cos * light->radiance * (weight / light->pdf.value));
   observer.light(vertex, light, LightFate::seen, weight, contribution);

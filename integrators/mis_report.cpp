@@ -90,10 +90,27 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M>> {
     return std::nullopt;
   }
 
+  /// How far along the ray of a light sample, which meets `hit` first, the light is, or what lies before it
+  /// by a rounding; nothing if another emitter comes first.
+  static std::optional<float> distance_of_light(const World& world, const Ray& ray,
+                                                const std::optional<Hit>& hit, Tracer& tracer,
+                                                LightSample& light) {
+    if (light.whole != nullptr) {
+      const auto first = first_emitter(world.scene, tracer, ray, hit);
+      return first && meets(world, *first, light) ? std::optional(first->t) : std::nullopt;
+    }
+    const Ray to_light{ray.origin, light.to_light, 0, light.visible_until};
+    if (M.overlays && is_covered(world.scene, to_light, light.emitter)) return std::nullopt;
+    const float until = light.visible_until * length(light.to_light);
+    if (!hit || hit->t >= until) return until;
+    const auto before = first_emitter(world.scene, tracer, {ray.origin, ray.direction, 0, until}, hit);
+    return before && before->t < until ? std::nullopt : std::optional(until);
+  }
+
   template <class Observer>
   Branch follow_light(const World& world, const Vertex<M>& vertex, const LightQuery& query,
                       const Rgb& throughput, Tracer& tracer, Sampler& random, Observer& observer) const {
-    const std::optional<LightSample> light = world.lights.sample(query, random);
+    std::optional<LightSample> light = world.lights.sample(query, random);
     const auto lost = [&](LightFate fate) {
       observer.light(vertex, light, fate, 0.0f, Rgb{});
       return Branch{};
@@ -101,17 +118,11 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M>> {
     if (!light) return lost(LightFate::none);
     const auto [f_cos, pdf_brdf] = vertex.at(light->wi);
     if (is_black(f_cos)) return lost(LightFate::below);
-    const Ray to_light{vertex.origin(), light->to_light, 0, light->visible_until};
-    if (M.overlays && is_covered(world.scene, to_light, light->emitter)) return lost(LightFate::covered);
-
     const Ray ray{vertex.origin(), light->wi};
-    const float until = light->visible_until * length(light->to_light);
     const std::optional<Hit> hit = seen(world.scene, ray, tracer.closest_hit(ray));
-    const bool hidden = hit && hit->t < until;
-    if (hidden) {
-      const auto before = first_emitter(world.scene, tracer, {ray.origin, ray.direction, 0, until}, hit);
-      if (before && before->t < until) return lost(LightFate::covered);
-    }
+    const std::optional<float> until = distance_of_light(world, ray, hit, tracer, *light);
+    if (!until) return lost(light->whole != nullptr ? LightFate::missed : LightFate::covered);
+    const bool hidden = hit && hit->t < *until;
     const float weight = mis_weight(options_.heuristic, light->pdf, pdf_brdf);
     const Rgb reflected = throughput * (f_cos * (weight / light->pdf.value));
     Branch branch{.ray = ray};

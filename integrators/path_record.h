@@ -6,6 +6,7 @@
 
 #include "src/core/rgb.h"
 #include "src/core/vec.h"
+#include "src/lights/emitter.h"
 
 namespace lemma {
 
@@ -15,6 +16,7 @@ enum class LightFate {
   below,    // the surface does not reflect from that direction
   covered,  // another emitter lies on top of the point chosen
   hidden,   // something is in between
+  missed,   // the direction to a round light meets something else
   seen
 };
 
@@ -36,10 +38,12 @@ struct SurfaceEvent {
 /// A light sample is taken there.
 struct LightEvent {
   LightFate fate = LightFate::none;
-  std::uint32_t emitter = 0;  // index into Scene::emitters; like what follows of no meaning if there is none
-  Vec3 wi{0, 0, 0};           // unit
-  float distance = 0;         // [scene units]
-  Rgb radiance{}, f_cos{};    // emitted towards the surface [W m^-2 sr^-1]; f cos(theta_i) [sr^-1]
+  // Index into Scene::emitters; kNoEmitter for a direction to a round light that did not meet it, which has
+  // no distance and densities of light either. Like what follows of no meaning if there is no sample.
+  std::uint32_t emitter = kNoEmitter;
+  Vec3 wi{0, 0, 0};         // unit
+  float distance = 0;       // [scene units]
+  Rgb radiance{}, f_cos{};  // emitted towards the surface [W m^-2 sr^-1]; f cos(theta_i) [sr^-1]
   Densities densities{};
   float pdf = 0, weight = 0;  // density it was drawn with [sr^-1]; its weight, 0 if it does not count
   Rgb contribution{};         // to the radiance of the camera ray

@@ -10,12 +10,14 @@ void PathRecorder::add_surface(const Hit& hit, const Place& place, const Rgb& th
 
 void PathRecorder::add_light(const std::optional<LightSample>& sample, LightEvent event) {
   if (sample) {
-    event.emitter = sample->emitter;
     event.wi = sample->wi;
-    event.distance = length(sample->to_light);
     event.radiance = sample->radiance;
     event.pdf = sample->pdf.value;
-    event.densities.light = light_densities(sample->emitter, from_->x + sample->to_light);
+    event.emitter = sample->emitter;
+    if (sample->emitter != kNoEmitter) {
+      event.distance = length(sample->to_light);
+      event.densities.light = light_densities(sample->emitter, from_->x + sample->to_light);
+    }
   }
   events_.emplace_back(std::move(event));
 }

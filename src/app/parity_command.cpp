@@ -35,7 +35,9 @@ ParityInput load(const ParityOptions& options) {
   if (options.scene.extension() == ".obj") return input;
   input.scene = load_scene(options.scene);
   input.camera.emplace(input.scene->scene.view);
-  input.lights = light_samplers().front().value(input.scene->scene.emitters);
+  // One that draws points, which shadow rays end at.
+  const auto by_points = find_named(light_samplers(), std::string_view("solid-angle")).value();
+  input.lights = by_points(input.scene->scene.emitters);
   return input;
 }
 

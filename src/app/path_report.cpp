@@ -36,6 +36,8 @@ std::string_view name_of(LightFate fate) {
       return "covered by another emitter";
     case LightFate::hidden:
       return "hidden";
+    case LightFate::missed:
+      return "missed for something else";
     case LightFate::seen:
       return "seen";
   }
@@ -62,10 +64,12 @@ struct TextOf {
   }
   std::string operator()(const LightEvent& e) const {
     if (e.fate == LightFate::none) return "    light sample: none, the light sends nothing here\n";
+    const bool met = e.emitter != kNoEmitter;
     return fmt::format(
-        "    light sample: emitter {}, {}, towards {}, distance {:.5g}, radiance {}, f cos {}\n"
+        "    light sample: {}, {}, towards {}, {}radiance {}, f cos {}\n"
         "      densities [1/sr]: {}\n      drawn with {:.4g}, weight {:.4g}: contributes {}\n",
-        e.emitter, name_of(e.fate), text(e.wi), e.distance, text(e.radiance), text(e.f_cos),
+        met ? fmt::format("emitter {}", e.emitter) : "a round light", name_of(e.fate), text(e.wi),
+        met ? fmt::format("distance {:.5g}, ", e.distance) : "", text(e.radiance), text(e.f_cos),
         text(e.densities), e.pdf, e.weight, text(e.contribution));
   }
   std::string operator()(const ScatterEvent& e) const {
@@ -112,11 +116,12 @@ struct JsonOf {
   }
   Json operator()(const LightEvent& e) const {
     if (e.fate == LightFate::none) return {{"event", "light"}, {"fate", name_of(e.fate)}};
+    const bool met = e.emitter != kNoEmitter;
     return {{"event", "light"},
             {"fate", name_of(e.fate)},
-            {"emitter", e.emitter},
+            {"emitter", met ? Json(e.emitter) : Json()},
             {"wi", json(e.wi)},
-            {"distance", e.distance},
+            {"distance", met ? Json(e.distance) : Json()},
             {"radiance", json(e.radiance)},
             {"f_cos", json(e.f_cos)},
             {"densities", json(e.densities)},

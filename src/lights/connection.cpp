@@ -51,12 +51,12 @@ std::optional<Connection> connect(const Emitter& emitter, const Vec3& x, const V
 
 LightSample make_light_sample(std::span<const Emitter> emitters, std::size_t index, const Vec3& x,
                               const Connection& connection, PdfSolidAngle pdf) {
-  return {.to_light = Vec3(connection.to_light),
-          .wi = Vec3(normalize(connection.to_light)),
+  return {.wi = Vec3(normalize(connection.to_light)),
           .pdf = pdf,
           .radiance = emitters[index].radiance,
-          .emitter = static_cast<std::uint32_t>(index),
-          .visible_until = visible_until(emitters[index], x, connection)};
+          .to_light = Vec3(connection.to_light),
+          .visible_until = visible_until(emitters[index], x, connection),
+          .emitter = static_cast<std::uint32_t>(index)};
 }
 
 }  // namespace lemma

@@ -7,6 +7,8 @@
 
 namespace lemma {
 
+inline constexpr std::uint32_t kNoEmitter = 0xFFFFFFFFu;  // in place of an index
+
 /// A triangle that emits the constant radiance to the side its winding's normal points to, nothing to the
 /// other.
 struct Emitter {

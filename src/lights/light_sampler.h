@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,17 +11,22 @@
 #include "src/core/reflection.h"
 #include "src/core/sampler.h"
 #include "src/lights/emitter.h"
+#include "src/lights/whole_light.h"
 
 namespace lemma {
 
-/// A point on an emitter, chosen from a reference point x.
+/// A direction towards a light, chosen from a reference point x: that of a point on an emitter, or of a whole
+/// light a direction alone.
 struct LightSample {
-  Vec3 to_light;      // from x to the point on the emitter [scene units]
-  Vec3 wi;            // the same, unit
-  PdfSolidAngle pdf;  // probability of the emitter times density of the direction on it; > 0
+  Vec3 wi;            // unit
+  PdfSolidAngle pdf;  // probability of the light times density of the direction; > 0
   Rgb radiance;       // emitted towards x
-  std::uint32_t emitter = 0;
-  float visible_until = 1;  // what blocks the ray x + t to_light hits at t in (0, visible_until)
+  Vec3 to_light;      // from x to the point on the emitter [scene units]; of a whole light the same as wi
+  // Of a point: what blocks the ray x + t to_light hits at t in (0, visible_until).
+  float visible_until = std::numeric_limits<float>::infinity();
+  std::uint32_t emitter = kNoEmitter;
+  // Or the whole light: the sample counts if one of its emitters is what the ray meets first.
+  const WholeLight* whole = nullptr;
 };
 
 /// What a strategy needs to know about a reference point for both sampling and density: found once a point.
@@ -34,11 +40,11 @@ struct LightQuery {
   std::vector<double> running_weights = {};
 };
 
-/// Chooses points on emitters. The technique is: choose a light (an emitter, or emitters that are sampled as
-/// one), then a direction towards it; it counts only if what x sees there is the emitter returned, the first
-/// of the chosen light in that direction. The density of a direction is therefore that of the one light it
-/// hits first, without a sum over lights behind it, and the weights of multiple importance sampling sum to 1
-/// also where emitters overlap. All densities end in solid angle about x.
+/// Chooses directions to emitters. The technique is: choose a light (an emitter, or emitters that are sampled
+/// as one), then a direction towards it; it counts only if what x sees there is that light. The density of a
+/// direction is therefore that of the one light it hits first, without a sum over lights behind it, and the
+/// weights of multiple importance sampling sum to 1 also where emitters overlap. All densities end in solid
+/// angle about x.
 class LightSampler {
  public:
   LightSampler() = default;
@@ -67,6 +73,9 @@ class LightSampler {
   /// @param at  prepared
   /// @return nothing if the emitter chosen does not emit towards x
   [[nodiscard]] virtual std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const = 0;
+
+  /// The whole light that an emitter is a part of, or null.
+  [[nodiscard]] virtual const WholeLight* whole_of(std::uint32_t) const { return nullptr; }
 
   /// Density with which sample() returns the direction from at.x to the point `y` of the emitter.
   /// @param y  on the emitter, up to rounding

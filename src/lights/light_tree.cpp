@@ -21,7 +21,7 @@ class LightTree::Builder {
     std::vector<bool> alone(tree_.emitters_.size(), true);
     std::vector<LightItem> items;
     for (std::uint32_t w = 0; w < tree_.wholes_.size(); ++w) {
-      const auto& emitters = tree_.wholes_[w].body.emitters;
+      const auto& emitters = tree_.wholes_[w].emitters;
       for (const std::uint32_t e : emitters) alone[e] = false;
       LightBounds bounds = bounds_of(items_of(emitters));
       bounds.power /= kSurfaceToSilhouette;
@@ -79,7 +79,7 @@ class LightTree::Builder {
     for (std::uint32_t i = 0; i < tree_.nodes_[node].children; ++i) {
       const Node& child = tree_.nodes_[tree_.nodes_[node].first_child + i];
       if (child.whole == kNone) continue;
-      const WholeLight& light = tree_.wholes_[child.whole].body;
+      const WholeLight& light = tree_.wholes_[child.whole];
       block.set(i, light, luminance(tree_.emitters_[light.emitters.front()].radiance));
       tree_.nodes_[node].block = static_cast<std::uint32_t>(tree_.blocks_.size());
     }
@@ -110,7 +110,7 @@ class LightTree::Builder {
         return;
       case LightItem::Kind::whole:
         tree_.nodes_[node].whole = item.index;
-        build_group(node, tree_.wholes_[item.index].body.emitters);
+        build_group(node, tree_.wholes_[item.index].emitters);
         return;
       case LightItem::Kind::quad:
         tree_.nodes_[node].quad = item.index;
@@ -131,11 +131,8 @@ class LightTree::Builder {
 LightTree::LightTree(std::span<const Emitter> emitters)
     : emitters_(emitters),
       views_(emitters.begin(), emitters.end()),
+      wholes_(find_whole_lights(emitters)),
       weigh_wholes_(all_weigh_wholes().front().function) {
-  for (WholeLight& light : find_whole_lights(emitters)) {
-    BodyMesh mesh(emitters, light);
-    wholes_.push_back({std::move(light), std::move(mesh)});
-  }
   Builder(*this).build();
 }
 
@@ -144,7 +141,7 @@ bool LightTree::is_light(const Node& node, const Vec3& x) const {
   if (node.children == 0) return true;
   if (node.quad != kNone) return quads_[node.quad].view().is_far(x);
   if (node.whole == kNone) return false;
-  const WholeLight& whole = wholes_[node.whole].body;
+  const WholeLight& whole = wholes_[node.whole];
   return SphereCone::can_be_sampled(whole.centre, whole.radius, x);
 }
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "src/lights/body_mesh.h"
 #include "src/lights/emitter_view.h"
 #include "src/lights/light_bounds.h"
 #include "src/lights/light_sampler.h"
@@ -23,19 +22,13 @@ class LightTree {
  public:
   explicit LightTree(std::span<const Emitter> emitters);
 
-  /// A whole light and what a ray meets first of it.
-  struct Whole {
-    WholeLight body;
-    BodyMesh mesh;
-  };
-
   /// A light chosen: one of the three.
   struct Choice {
     double pmf = 0;
     std::uint32_t emitter = 0;
-    const Whole* whole = nullptr;     // if one of these two is there, `emitter` ...
-    const QuadLight* quad = nullptr;  // ... means nothing
-    double u = 0;                     // of choose(): what the choice leaves of its number, uniform in [0, 1)
+    const WholeLight* whole = nullptr;  // if one of these two is there, `emitter` ...
+    const QuadLight* quad = nullptr;    // ... means nothing
+    double u = 0;  // of choose(): what the choice leaves of its number, uniform in [0, 1)
   };
 
   /// Draws a light for u uniform in [0, 1); nothing if no light can reach the surface.
@@ -48,6 +41,13 @@ class LightTree {
 
   /// The light that an emitter is sampled with from there, and the probability that choose() returns it.
   [[nodiscard]] Choice choice_of(const LightQuery& at, std::uint32_t emitter) const;
+
+  /// The whole light that an emitter is a part of, or null.
+  [[nodiscard]] const WholeLight* whole_of(std::uint32_t emitter) const {
+    const std::uint32_t group = places_[emitter].group;
+    if (group == kNone || nodes_[group].whole == kNone) return nullptr;
+    return &wholes_[nodes_[group].whole];
+  }
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
@@ -83,7 +83,7 @@ class LightTree {
 
   std::span<const Emitter> emitters_;
   std::vector<EmitterView> views_;  // by emitter
-  std::vector<Whole> wholes_;
+  std::vector<WholeLight> wholes_;
   std::vector<QuadLight> quads_;
   std::vector<Node> nodes_;         // the root first
   std::vector<WholeBlock> blocks_;  // whole lights by the places of a node's children

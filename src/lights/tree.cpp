@@ -24,10 +24,11 @@ class WholeView {
     return cone_.holds(w) ? std::optional(w) : std::nullopt;
   }
 
-  [[nodiscard]] PdfSolidAngle pdf(double pmf, const Connection& connection) const {
+  /// @param to_light  within the cone
+  [[nodiscard]] PdfSolidAngle pdf(double pmf, const Vec3d& to_light) const {
     const double uniform = 1 / cone_.solid_angle(), share = lobe_.share();
     if (share == 0) return {static_cast<float>(pmf * uniform)};
-    const double by_lobe = lobe_.pdf(normalize(connection.to_light)).value;
+    const double by_lobe = lobe_.pdf(normalize(to_light)).value;
     return {static_cast<float>(pmf * ((1 - share) * uniform + share * by_lobe))};
   }
 
@@ -38,8 +39,7 @@ class WholeView {
 
 /// A light by a tree (light_tree.h), by what the surface reflects of it, at a cost that grows with the
 /// logarithm of their number; then a direction uniform over its solid angle, or that of a WholeView if it is
-/// a whole light. Of a whole light the sample is the emitter that the direction meets first, or nothing if it
-/// passes by.
+/// a whole light.
 class TreeSampler final : public LightSampler {
  public:
   explicit TreeSampler(std::span<const Emitter> emitters) : emitters_(emitters), tree_(emitters) {}
@@ -57,23 +57,29 @@ class TreeSampler final : public LightSampler {
     const auto connection = connect(emitters_[emitter], at.x, Vec3d(y));
     if (!connection) return {0};
     const LightTree::Choice light = tree_.choice_of(at, emitter);
-    if (light.whole != nullptr) return WholeView(light.whole->body, at).pdf(light.pmf, *connection);
+    if (light.whole != nullptr) return WholeView(*light.whole, at).pdf(light.pmf, connection->to_light);
     if (light.quad != nullptr) return light.quad->pdf(light.pmf, emitter, *connection);
     const Triangle& triangle = emitters_[emitter].shape;
     if (tree_.samples_area(at.x, emitter)) return area_pdf(light.pmf, triangle, *connection);
     return triangle_pdf(light.pmf, triangle, SphericalTriangle(triangle, at.x), *connection);
   }
 
+  const WholeLight* whole_of(std::uint32_t emitter) const override { return tree_.whole_of(emitter); }
+
  private:
   [[nodiscard]] std::optional<LightSample> sample_whole(const LightQuery& at, const LightTree::Choice& light,
                                                         const Sampler::ChoicePair& u) const {
-    const WholeView seen(light.whole->body, at);
+    const WholeView seen(*light.whole, at);
     const auto w = seen.sample(u);
     if (!w) return std::nullopt;
-    const auto point = light.whole->mesh.first_hit(at.x, *w);
-    if (!point) return std::nullopt;
-    return make_sample(at, point->emitter, point->y,
-                       [&](const Connection& c) { return seen.pdf(light.pmf, c); });
+    const PdfSolidAngle pdf = seen.pdf(light.pmf, *w);
+    if (!(pdf.value > 0)) return std::nullopt;
+    const Vec3 wi(*w);
+    return LightSample{.wi = wi,
+                       .pdf = pdf,
+                       .radiance = emitters_[light.whole->emitters.front()].radiance,
+                       .to_light = wi,
+                       .whole = light.whole};
   }
 
   [[nodiscard]] std::optional<LightSample> sample_quad(const LightQuery& at, const LightTree::Choice& light,

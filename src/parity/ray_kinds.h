@@ -35,7 +35,7 @@ inline constexpr std::size_t kRayKinds = kRayKindNames.size();
 [[nodiscard]] RayKind kind_of(std::uint32_t index);
 
 /// What rays are made of. Camera and lights may be null: then rays come from beside the scene's box, and
-/// shadow rays join points of surfaces.
+/// shadow rays join points of surfaces. Lights are such as draw points.
 struct RayScene {
   std::span<const Triangle> triangles;
   const Accelerator* walker = nullptr;  // finds where bounces start; any will do

@@ -50,7 +50,6 @@ struct SceneNeeds {
 /// "Lambert, glass, 3 textures in place of Kd, ...".
 [[nodiscard]] std::string describe(const SceneNeeds& needs);
 
-inline constexpr std::uint32_t kNoEmitter = 0xFFFFFFFFu;
 inline constexpr std::uint32_t kNoTexture = 0xFFFFFFFFu;
 
 /// The texture of a material: its Kd at a point is tint x what the texture has there.

@@ -51,4 +51,25 @@ double irradiance(const Emitter& emitter, const Vec3& x, const Vec3& n) {
   return emitter.radiance.g * std::abs(sum) / 2;
 }
 
+LightDraws::LightDraws(const LightSampler& lights, std::span<const Emitter> emitters) : lights_(lights) {
+  for (const Emitter& e : emitters) triangles_.push_back(e.shape);
+  accel_ = find_named(accelerators(), std::string_view("grid")).value()(triangles_, {});
+}
+
+std::optional<LightSample> LightDraws::operator()(const LightQuery& at, Sampler& random) const {
+  auto sample = lights_.sample(at, random);
+  if (!sample || sample->whole == nullptr) return sample;
+  // Other lights may stand before it.
+  Ray ray{at.x, sample->wi};
+  for (auto hit = accel_->closest_hit(ray); hit; hit = accel_->closest_hit(ray)) {
+    if (lights_.whole_of(hit->triangle) == sample->whole) {
+      sample->emitter = hit->triangle;
+      sample->to_light = sample->wi * hit->t;
+      return sample;
+    }
+    ray.t_min = hit->t;
+  }
+  return std::nullopt;
+}
+
 }  // namespace lemma::test

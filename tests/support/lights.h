@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "src/lights/emitter.h"
+#include "accel/accelerator.h"
+#include "src/lights/light_sampler.h"
 
 namespace lemma::test {
 
@@ -16,5 +18,19 @@ namespace lemma::test {
 /// Lambert's formula: irradiance [W m^-2 per radiance 1] that a triangle sends to x with normal n, horizon
 /// respected: the triangle is cut by it. 0 from behind.
 [[nodiscard]] double irradiance(const Emitter& emitter, const Vec3& x, const Vec3& n);
+
+/// Draws light samples and finds the emitters that directions to whole lights meet.
+class LightDraws {
+ public:
+  LightDraws(const LightSampler& lights, std::span<const Emitter> emitters);
+
+  /// A sample that names its emitter; nothing if it comes to nothing or passes its whole light by.
+  [[nodiscard]] std::optional<LightSample> operator()(const LightQuery& at, Sampler& random) const;
+
+ private:
+  const LightSampler& lights_;
+  std::vector<Triangle> triangles_;  // of each emitter
+  std::unique_ptr<const Accelerator> accel_;
+};
 
 }  // namespace lemma::test

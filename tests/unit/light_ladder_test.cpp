@@ -116,6 +116,7 @@ TEST_P(LightLadder, SamplesFollowTheDensityAndNoneIsLeftOver) {
   for (const Situation& s : situations()) {
     if (!suits(s)) continue;
     const auto lights = make(s.emitters);
+    const test::LightDraws draw(*lights, s.emitters);
     const LightQuery at = lights->query(s.x, s.n);
     const std::size_t parts = std::max<std::size_t>(s.parts / s.emitters.size(), 1);
     std::vector<test::Partition> partitions;
@@ -136,7 +137,7 @@ TEST_P(LightLadder, SamplesFollowTheDensityAndNoneIsLeftOver) {
     std::vector<double> counts(shares.size(), 0.0);
     for (std::uint32_t i = 0; i < draws; ++i) {
       Sampler random(131, i, 0);
-      const auto sample = lights->sample(at, random);
+      const auto sample = draw(at, random);
       const int part = sample ? partitions[sample->emitter].part_seen(Vec3d(sample->to_light)) : 0;
       if (part < 0) continue;  // by an edge, off it by the rounding of to_light
       ++counts[sample ? first[sample->emitter] + static_cast<std::size_t>(part) : counts.size() - 1];
@@ -151,13 +152,14 @@ TEST_P(LightLadder, EstimatesTheIrradianceOfThePartAboveTheHorizon) {
   for (const Situation& s : situations()) {
     if (!suits(s)) continue;
     const auto lights = make(s.emitters);
+    const test::LightDraws draw(*lights, s.emitters);
     const LightQuery at = lights->query(s.x, s.n);
     double reference = 0;
     for (const Emitter& e : s.emitters) reference += test::irradiance(e, s.x, s.n);
     std::vector<double> values;
     for (std::uint32_t i = 0; i < 40000; ++i) {
       Sampler random(132, i, 0);
-      const auto sample = lights->sample(at, random);
+      const auto sample = draw(at, random);
       values.push_back(sample ? double{sample->radiance.g} * std::max(0.0f, dot(sample->wi, s.n)) /
                                     double{sample->pdf.value}
                               : 0.0);
@@ -175,11 +177,12 @@ TEST_P(LightLadder, EstimatesTheIrradianceOfThePartAboveTheHorizon) {
 TEST_P(LightLadder, SampleAndPdfAgree) {
   for (const Situation& s : situations()) {
     const auto lights = make(s.emitters);
+    const test::LightDraws draw(*lights, s.emitters);
     const LightQuery at = lights->query(s.x, s.n);
     int samples = 0;
     for (std::uint32_t i = 0; i < 2000; ++i) {
       Sampler random(133, i, 0);
-      const auto sample = lights->sample(at, random);
+      const auto sample = draw(at, random);
       if (!sample) continue;
       const Vec3d y = Vec3d(s.x) + Vec3d(sample->to_light);
       const Triangle& t = s.emitters[sample->emitter].shape;
