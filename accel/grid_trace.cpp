@@ -49,11 +49,11 @@ class Walk {
   /// Through one level and those of its cells; says whether there is a hit, if any will do.
   bool through(const GridLevel& level) {
     const GridCrossing crossing(level, ray_, best_.t);
-    if (crossing.misses) return false;
     bool hit = false;
     int end = crossing.slices;
     for (int first = 0; first < end; first += Slices::lanes()) {
       Slices slices(grid_.near.data() + level.near, crossing, first, end);
+      if (slices.leaves()) end = std::min(end, first + Slices::lanes());
       if constexpr (kAny) {
         if (hits_any(level, slices)) return true;
       } else {
@@ -61,7 +61,7 @@ class Walk {
           const GridCells::Record& cell = grid_.record(level, slices.cell());
           if (box_.may_pass({&cell}, best_.t) == 0 || !visit(cell)) continue;
           hit = true;
-          end = crossing.slices_until(best_.t);
+          end = std::min(end, crossing.slices_until(best_.t));
         }
       }
     }
@@ -128,11 +128,11 @@ bool any(const GridCells& grid, const Ray& ray, const ShearedRay& sheared) {
 void walk(const GridCells& grid, const Ray& ray, std::vector<std::uint32_t>& cells) {
   const GridLevel& level = grid.levels.front();
   const GridCrossing crossing(level, ray, ray.t_max);
-  if (crossing.misses) return;
-  for (int first = 0; first < crossing.slices; first += Slices::lanes()) {
-    for (Slices slices(grid.near.data() + level.near, crossing, first, crossing.slices); !slices.done();
-         slices.next())
-      cells.push_back(slices.cell());
+  bool leaves = false;
+  for (int first = 0; first < crossing.slices && !leaves; first += Slices::lanes()) {
+    Slices slices(grid.near.data() + level.near, crossing, first, crossing.slices);
+    leaves = slices.leaves();
+    for (; !slices.done(); slices.next()) cells.push_back(slices.cell());
   }
 }
 
