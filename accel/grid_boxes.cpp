@@ -110,7 +110,8 @@ Bounds bounds_of(std::span<const Item> items) {
   return bounds;
 }
 
-/// Halves the items along the axis on which their centres lie furthest apart until halves are parts.
+/// Halves the items along the axis on which their centres lie furthest apart until halves are parts; whole
+/// groups of parts first.
 void sort_into_parts(std::span<Item> items) {
   const std::size_t parts = GridCells::part_count(items.size());
   if (parts == 1) {
@@ -122,7 +123,8 @@ void sort_into_parts(std::span<Item> items) {
   for (const Item& item : items) centres.add(Vec3(item.centre(0), item.centre(1), item.centre(2)));
   const Vec3 size = centres.hi - centres.lo;
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  const std::size_t half = parts / 2 * GridCells::kPart;
+  const std::size_t unit = parts > GridCells::kGroup ? GridCells::kGroup : 1;
+  const std::size_t half = std::max(parts / 2 / unit, std::size_t{1}) * unit * GridCells::kPart;
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
                    [&](const Item& a, const Item& b) {
                      return std::pair(a.centre(axis), a.triangle) < std::pair(b.centre(axis), b.triangle);
@@ -156,15 +158,20 @@ class Fitting {
  private:
   void fit_parts(std::span<Item> items, const GridCells::Record& list) const {
     sort_into_parts(items);
-    const std::size_t parts = GridCells::part_count(items.size());
-    float* boxes = grid_.part_boxes(list);
     for (std::size_t i = 0; i < items.size(); ++i) grid_.references[list.begin + i] = items[i].triangle;
-    for (std::size_t p = 0; p < parts; ++p) {
-      const std::size_t begin = p * GridCells::kPart;
-      const Bounds box = widened(
-          bounds_of(items.subspan(begin, std::min(GridCells::kPart, items.size() - begin))), margins_);
+    fit_in_turn(items, GridCells::kPart, grid_.part_boxes(list));
+    if (GridCells::group_count(items.size()) > 0)
+      fit_in_turn(items, GridCells::kPart * GridCells::kGroup, grid_.group_boxes(list));
+  }
+
+  /// Boxes of `each` items and a last one of the rest.
+  void fit_in_turn(std::span<Item> items, std::size_t each, float* boxes) const {
+    const std::size_t count = (items.size() + each - 1) / each;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Bounds box =
+          widened(bounds_of(items.subspan(i * each, std::min(each, items.size() - i * each))), margins_);
       const std::array<float, 6> values{box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z};
-      for (std::size_t a = 0; a < 6; ++a) boxes[a * parts + p] = values[a];
+      for (std::size_t a = 0; a < 6; ++a) boxes[a * count + i] = values[a];
     }
   }
 

@@ -81,10 +81,16 @@ struct GridCells {
   /// Up to so many are all tested: boxes of their parts took longer.
   static constexpr std::size_t kFew = 48;
   static constexpr std::size_t part_count(std::size_t triangles) { return (triangles + kPart - 1) / kPart; }
-  /// Places of nine floats that a list's parts_boxes() take, in `vertices` before it; the same places in
-  /// `references` hold 0.
+  /// Parts are looked for in groups of so many where there are more.
+  static constexpr std::size_t kGroup = 16;
+  static constexpr std::size_t group_count(std::size_t triangles) {
+    const std::size_t parts = part_count(triangles);
+    return parts <= kGroup ? 0 : (parts + kGroup - 1) / kGroup;
+  }
+  /// Places of nine floats that a list's boxes take, in `vertices` before it; the same places in `references`
+  /// hold 0.
   static constexpr std::size_t box_places(std::size_t triangles) {
-    return triangles <= kFew ? 0 : (6 * part_count(triangles) + 8) / 9;
+    return triangles <= kFew ? 0 : (6 * (part_count(triangles) + group_count(triangles)) + 8) / 9;
   }
 
   /// The vertices of a part of n triangles that begins with the first of a list, or the kPart-th, and so on:
@@ -99,6 +105,13 @@ struct GridCells {
   }
   [[nodiscard]] float* part_boxes(const Record& list) {
     return vertices.data() + 9 * (list.begin - box_places(list.count));
+  }
+  /// Where a list has groups, their boxes: six arrays again.
+  [[nodiscard]] const float* group_boxes(const Record& list) const {
+    return part_boxes(list) + 6 * part_count(list.count);
+  }
+  [[nodiscard]] float* group_boxes(const Record& list) {
+    return part_boxes(list) + 6 * part_count(list.count);
   }
 
   /// Triangle i of a cell's list.

@@ -6,6 +6,8 @@
 #define LEMMA_GRID_LISTS_INL_H
 #endif
 
+#include <bit>
+
 #include "accel/grid_blocks-inl.h"
 #include "accel/grid_boxes-inl.h"
 #include "accel/grid_cells.h"
@@ -35,21 +37,40 @@ class CellTest {
       }
       return hit;
     }
-    const std::size_t parts = GridCells::part_count(list.count);
-    const float* boxes = grid.part_boxes(list);
-    for (std::size_t first = 0; first < parts; first += parts_.lanes()) {
-      for (std::uint64_t rest = parts_.may_pass(boxes + first, parts, parts - first, best.t); rest != 0;
+    const std::size_t parts = GridCells::part_count(list.count), groups = GridCells::group_count(list.count);
+    if (groups == 0) return test_parts(grid, list, 0, parts, best);
+    return visit_passed(grid.group_boxes(list), groups, 0, groups, best, [&](std::size_t group) {
+      const std::size_t first = GridCells::kGroup * group;
+      return test_parts(grid, list, first, std::min(first + GridCells::kGroup, parts), best);
+    });
+  }
+
+ private:
+  static constexpr std::size_t kShort = 8;  // one look of FewTest
+
+  /// Calls visit(i) for those of the boxes in [first, end) that the ray may pass before best.t, up to a hit
+  /// if any will do; whether one of the calls said that there is a hit.
+  template <class Visit>
+  HWY_INLINE bool visit_passed(const float* boxes, std::size_t size, std::size_t first, std::size_t end,
+                               const Hit& best, const Visit& visit) const {
+    bool hit = false;
+    for (; first < end; first += parts_.lanes()) {
+      for (std::uint64_t rest = parts_.may_pass(boxes + first, size, end - first, best.t); rest != 0;
            rest &= rest - 1) {
-        hit |= test_part(grid, list,
-                         GridCells::kPart * (first + static_cast<std::size_t>(std::countr_zero(rest))), best);
+        hit |= visit(first + static_cast<std::size_t>(std::countr_zero(rest)));
         if (kAny && hit) return true;
       }
     }
     return hit;
   }
 
- private:
-  static constexpr std::size_t kShort = 8;  // one look of FewTest
+  /// The parts in [first, end).
+  HWY_INLINE bool test_parts(const GridCells& grid, const GridCells::Record& list, std::size_t first,
+                             std::size_t end, Hit& best) const {
+    return visit_passed(
+        grid.part_boxes(list), GridCells::part_count(list.count), first, end, best,
+        [&](std::size_t part) { return test_part(grid, list, GridCells::kPart * part, best); });
+  }
 
   HWY_INLINE bool test_part(const GridCells& grid, const GridCells::Record& list, std::size_t first,
                             Hit& best) const {

@@ -157,14 +157,23 @@ std::size_t part_with(const GridCells& grid, const GridCells::Record& list, std:
   return static_cast<std::size_t>(std::find(begin, begin + list.count, i) - begin) / GridCells::kPart;
 }
 
+/// Whether all points within `error` of p on each axis lie in box i of `size` (GridCells::part_boxes).
+bool holds(const float* boxes, std::size_t size, std::size_t i, const Vec3d& p, double error) {
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    if (boxes[axis * size + i] > p[k] - error || boxes[(axis + 3) * size + i] < p[k] + error) return false;
+  }
+  return true;
+}
+
 /// Points of triangles, vertices too, moved by the most that hits err, 2^-15 of the scene, lie in the box of
-/// the cell and in that of the part of its list.
+/// the cell and in those of the part of its list and of the group of parts.
 TEST(GridCells, BoxesHoldTheirTriangles) {
   std::vector<Triangle> triangles = test::random_triangles(3000, 0.2f, 4);
-  const GridCells grid = build_grid_cells(triangles, {GridResolution::Rule::density, 64});
+  const GridCells grid = build_grid_cells(triangles, {GridResolution::Rule::density, 27});
   const GridLevel& level = grid.levels.front();
   const double error = max_norm(grid.hi - grid.lo) * 0x1p-15;
-  int with_parts = 0;
+  int with_parts = 0, with_groups = 0;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     Sampler random(8, i, 0);
     for (int j = 0; j < 20; ++j) {
@@ -175,22 +184,23 @@ TEST(GridCells, BoxesHoldTheirTriangles) {
       if (!cell) continue;
       const GridCells::Record& record = grid.record(level, *cell);
       ASSERT_NE(record.count, GridCells::Record::kLevel);
-      const std::size_t parts = GridCells::part_count(record.count);
-      const float* boxes = GridCells::box_places(record.count) == 0
-                               ? nullptr
-                               : grid.part_boxes(record) + part_with(grid, record, i);
-      with_parts += boxes == nullptr ? 0 : 1;
       for (int k = 0; k < 3; ++k) {
-        const auto axis = static_cast<std::size_t>(k);
         ASSERT_LE(record.lo[k], p[k] - error) << i;
         ASSERT_GE(record.hi[k], p[k] + error) << i;
-        if (boxes == nullptr) continue;
-        ASSERT_LE(boxes[axis * parts], p[k] - error) << i;
-        ASSERT_GE(boxes[(axis + 3) * parts], p[k] + error) << i;
+      }
+      const std::size_t part = part_with(grid, record, i), groups = GridCells::group_count(record.count);
+      if (record.count > GridCells::kFew) {
+        ASSERT_TRUE(holds(grid.part_boxes(record), GridCells::part_count(record.count), part, p, error)) << i;
+        ++with_parts;
+      }
+      if (groups > 0) {
+        ASSERT_TRUE(holds(grid.group_boxes(record), groups, part / GridCells::kGroup, p, error)) << i;
+        ++with_groups;
       }
     }
   }
   EXPECT_GT(with_parts, 10000);
+  EXPECT_GT(with_groups, 10000);
 }
 
 /// The boxes of a grid's cells lie in that of the cell that holds it.
