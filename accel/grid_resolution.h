@@ -8,9 +8,6 @@
 
 namespace lemma {
 
-/// Cells a triangle of a fine grid, and of the grid of a crowded cell.
-constexpr double kGridDensity = 0.5;
-
 /// Numbers of cells an axis so that cells are about cubes and about `target` in all. An axis too short for
 /// one cell gets one, and the others share its part: flat and needle-shaped boxes need no case of their own.
 /// Source: Cleary, Wyvill, Analysis of an Algorithm for Fast Ray Tracing Using Uniform Space Subdivision,

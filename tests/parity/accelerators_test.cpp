@@ -134,7 +134,7 @@ TEST(GridParity, RangesThatEndAtTheHit) {
 /// A small sphere of many triangles in a large box, in a cell of its own: the cell becomes a grid.
 TEST(GridParity, CrowdedCells) {
   auto triangles = test::inward_box({-10, -10, -10}, {10, 10, 10});
-  const auto ball = test::sphere_mesh({3.1f, 2.2f, 1.3f}, 0.05f, 70, 70);
+  const auto ball = test::sphere_mesh({3.1f, 2.2f, 1.3f}, 0.05f, 130, 130);
   triangles.insert(triangles.end(), ball.begin(), ball.end());
   ASSERT_GT(build_grid_cells(triangles, {}).levels.size(), 1u);
   const auto grid = make("grid", triangles), brute = make("brute", triangles);
@@ -184,6 +184,26 @@ TEST(GridParity, DirectionsOfAnyLength) {
     }
   }
   EXPECT_GT(hits, 5000u);
+}
+
+/// Directions so long that t is a few times the smallest float: triangles up to a third of the way apart tie,
+/// and the one of lower index may lie in a later cell than the first hit.
+TEST(GridParity, DirectionsSoLongThatDistancesTie) {
+  constexpr float kSize = 0x1p-22f;
+  auto triangles = test::random_triangles(3000, 0.1f, 47);
+  for (Triangle& t : triangles) t = {t.v0 * kSize, t.v1 * kSize, t.v2 * kSize};
+  const auto grid = make("grid", triangles), brute = make("brute", triangles);
+  std::size_t hits = 0;
+  for (std::uint32_t i = 0; i < 4000; ++i) {
+    Sampler random(48, i, 0);
+    const int exponent = 120 + static_cast<int>(i % 6);
+    const Ray ray{random_point(random) * kSize, random_direction(random) * std::ldexp(1.0f, exponent)};
+    const auto hit = brute->closest_hit(ray);
+    ASSERT_EQ(hit, grid->closest_hit(ray)) << exponent;
+    ASSERT_EQ(hit.has_value(), grid->occluded(ray)) << exponent;
+    hits += hit ? 1 : 0;
+  }
+  EXPECT_GT(hits, 1000u);
 }
 
 TEST(GridParity, FlatScenesAndSingleTriangles) {

@@ -125,9 +125,10 @@ TEST(ParityOfMeshes, BackendsAreNeverWrong) {
   }
 }
 
-/// Of sizes for which the grid's cost model chooses between cells that are grids again and one finer grid.
+/// Of sizes for which the grid's cost model chooses between few cells, of which crowded ones are grids again,
+/// and many.
 TEST(ParityOfMeshes, GridsOfOneAndOfTwoLevelsAreNeverWrong) {
-  const auto sphere = test::sphere_mesh({0.3f, 0.1f, -0.2f}, 0.1f, 150, 200);
+  const auto sphere = test::sphere_mesh({0.3f, 0.1f, -0.2f}, 0.1f, 300, 450);
   auto in_a_box = test::inward_box({-1, -1, -1}, {1, 1, 1});
   in_a_box.insert(in_a_box.end(), sphere.begin(), sphere.end());
   for (const auto& [mesh, has_levels] : {std::pair(in_a_box, true), std::pair(sphere, false)}) {

@@ -76,10 +76,10 @@ std::optional<std::uint32_t> occupied_cell_at(const GridCells& grid, const GridL
   return grid.is_occupied(level, cell) ? std::optional(cell) : std::nullopt;
 }
 
-/// A scene's level and another: 11,000 triangles in 1000 cells, of which 10,000 within one.
+/// A scene's level and another: 41,000 triangles in 1000 cells, of which 40,000 within one.
 GridCells grid_of_levels(std::vector<Triangle>& triangles) {
   triangles = test::random_triangles(1000, 0.05f, 4);
-  for (Triangle t : test::random_triangles(10000, 0.02f, 7)) {
+  for (Triangle t : test::random_triangles(40000, 0.02f, 7)) {
     t = {t.v0 * 0.05f, t.v1 * 0.05f, t.v2 * 0.05f};
     triangles.push_back(t);
   }
@@ -225,10 +225,10 @@ TEST(GridCells, BoxesOfGridsHoldThoseOfTheirCells) {
   EXPECT_GT(cells, 50);
 }
 
-/// A ball of 30k triangles that are small against the margin of cells in a box 2000 times as large: lists of
-/// a tenth of them at most, and few copies.
+/// A ball of 60k triangles in one cell that are small against the margin of cells in a box 2000 times as
+/// large: lists of a tenth of them at most, and few copies.
 TEST(GridCells, ATinyCrowdInALargeBoxComesApart) {
-  auto triangles = test::sphere_mesh({30, -40, 20}, 0.1f, 123, 123);
+  auto triangles = test::sphere_mesh({30, -40, 24}, 0.1f, 175, 175);
   const std::size_t crowd = triangles.size();
   const auto box = test::inward_box({-100, -100, -100}, {100, 100, 100});
   triangles.insert(triangles.end(), box.begin(), box.end());
