@@ -38,9 +38,11 @@ namespace lemma {
   return world.lights.pdf(from, world.scene.facets[hit.triangle].emitter, y);
 }
 
+// `inline` below tells GCC to inline templates of this size, which it does not by itself.
+
 /// Looks for lights from a vertex.
 template <Model M>
-void look_from(const Vertex<M>& vertex, const World& world, LightQuery& at) {
+inline void look_from(const Vertex<M>& vertex, const World& world, LightQuery& at) {
   world.lights.look_from(vertex.origin(), vertex.shading_normal(), vertex.reflection(), at);
 }
 
@@ -61,7 +63,8 @@ void look_from(const Vertex<M>& vertex, const World& world, LightQuery& at) {
 
 /// What the direction of a whole light's sample meets: one of the light's emitters, or something else.
 template <Model M>
-[[nodiscard]] LightFate look_at_whole(const World& world, const Vec3& x, Tracer& tracer, LightSample& light) {
+[[nodiscard]] inline LightFate look_at_whole(const World& world, const Vec3& x, Tracer& tracer,
+                                             LightSample& light) {
   const Ray ray{x, light.wi};
   std::optional<Hit> hit = tracer.closest_hit(ray);
   if (!hit) return LightFate::missed;
@@ -73,7 +76,8 @@ template <Model M>
 
 /// What becomes of a light sample from x that is reflected there.
 template <Model M>
-[[nodiscard]] LightFate look_at_light(const World& world, const Vec3& x, Tracer& tracer, LightSample& light) {
+[[nodiscard]] inline LightFate look_at_light(const World& world, const Vec3& x, Tracer& tracer,
+                                             LightSample& light) {
   if (light.whole != nullptr) return look_at_whole<M>(world, x, tracer, light);
   const Ray to_light{x, light.to_light, 0, light.visible_until};
   if (M.overlays && is_covered(world.scene, to_light, light.emitter)) return LightFate::covered;

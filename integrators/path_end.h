@@ -19,8 +19,8 @@ template <class Observer>
 
 /// Whether the path goes on after this scattering; its throughput makes up for those that do not.
 template <class Observer>
-[[nodiscard]] bool survives_roulette(const IntegratorOptions& options, int depth, Rgb& throughput,
-                                     Sampler& random, Observer& observer) {
+[[nodiscard]] inline bool survives_roulette(const IntegratorOptions& options, int depth, Rgb& throughput,
+                                            Sampler& random, Observer& observer) {
   const float q = survival(options.roulette, depth, throughput);
   const bool alive = survives(q, throughput, random);
   observer.roulette(q, alive, throughput);

@@ -30,11 +30,15 @@ struct Triangle {
   return Vec3(normalize(area_vector(t)));
 }
 
+[[nodiscard]] inline double longest_edge2(const Triangle& t) {
+  const Vec3d e0(t.v1 - t.v0), e1(t.v2 - t.v1), e2(t.v0 - t.v2);
+  return std::max({dot(e0, e0), dot(e1, e1), dot(e2, e2)});
+}
+
 /// (longest edge)^2 / (2 area): 1.15 for an equilateral triangle, large for slivers. Rounding errors of a
 /// hit's t grow with it.
 [[nodiscard]] inline double sliver_ratio(const Triangle& t) {
-  const Vec3d e0(t.v1 - t.v0), e1(t.v2 - t.v1), e2(t.v0 - t.v2);
-  return std::max({dot(e0, e0), dot(e1, e1), dot(e2, e2)}) / length(area_vector(t));
+  return longest_edge2(t) / length(area_vector(t));
 }
 
 /// The point with barycentric coordinates b1, b2, in double: it lies in the triangle's plane to 2^-50 or so.

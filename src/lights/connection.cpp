@@ -22,11 +22,6 @@ float largest_difference(const Triangle& t, const Vec3& x) {
   return m;
 }
 
-double longest_edge2(const Triangle& t) {
-  const Vec3d e0(t.v1 - t.v0), e1(t.v2 - t.v1), e2(t.v0 - t.v2);
-  return std::max(std::max(dot(e0, e0), dot(e1, e1)), dot(e2, e2));
-}
-
 /// The error of a hit's distance is sliver_ratio u M / cos_light; over the distance itself this is
 /// longest_edge^2 u M / facing, where neither length nor root is left.
 float visible_until(const Emitter& emitter, const Vec3& x, const Connection& c) {

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "src/lights/light_split.h"
-#include "src/lights/sphere_cone.h"
 
 namespace lemma {
 namespace {
@@ -111,6 +110,9 @@ class LightTree::Builder {
       case LightItem::Kind::whole:
         tree_.nodes_[node].whole = item.index;
         build_group(node, tree_.wholes_[item.index].emitters);
+        for (const std::uint32_t e : tree_.wholes_[item.index].emitters) {
+          tree_.places_[e].whole = &tree_.wholes_[item.index];
+        }
         return;
       case LightItem::Kind::quad:
         tree_.nodes_[node].quad = item.index;
@@ -136,18 +138,9 @@ LightTree::LightTree(std::span<const Emitter> emitters)
   Builder(*this).build();
 }
 
-/// Whether the node is a light by itself as seen from x.
-bool LightTree::is_light(const Node& node, const Vec3& x) const {
-  if (node.children == 0) return true;
-  if (node.quad != kNone) return quads_[node.quad].view().is_far(x);
-  if (node.whole == kNone) return false;
-  const WholeLight& whole = wholes_[node.whole];
-  return SphereCone::can_be_sampled(whole.centre, whole.radius, x);
-}
-
 /// Luminance x solid angle x cosine at the surface x what it reflects: of a light nearly exactly but for the
 /// last factor, of other nodes an estimate. 0 only if no emitter of the node can contribute.
-double LightTree::importance(const Node& node, const LightQuery& at) const {
+[[gnu::noinline]] double LightTree::importance(const Node& node, const LightQuery& at) const {
   const Reflection& reflection = at.reflection;
   const double irradiance = irradiance_from(node, at);
   if (reflection.peak == 0) return irradiance * reflection.diffuse;
@@ -163,26 +156,22 @@ double LightTree::irradiance_from(const Node& node, const LightQuery& at) const 
                            : near_importance(emitters_[node.emitter], at.x, at.n);
 }
 
-/// Of a node that is a light as seen from where the choice is made.
-LightTree::Choice LightTree::choice(std::uint32_t index, double pmf) const {
-  const Node& node = nodes_[index];
-  Choice light{.pmf = pmf, .emitter = node.emitter};
-  if (node.children == 0) return light;
-  if (node.whole != kNone) light.whole = &wholes_[node.whole];
-  if (node.quad != kNone) light.quad = &quads_[node.quad];
-  return light;
-}
-
-LightTree::Weights LightTree::weigh_children(const Node& node, const LightQuery& at) const {
-  Weights weights;
-  WholeBlock::Values of_whole;
-  const bool has_wholes = node.block != kNone;
-  if (has_wholes) weigh_wholes_(blocks_[node.block], node.children, at, of_whole);
-  for (std::uint32_t i = 0; i < node.children; ++i) {
-    const bool weighed = has_wholes && of_whole[i] >= 0;
-    weights.of_child[i] = weighed ? double{of_whole[i]} : importance(nodes_[node.first_child + i], at);
-    weights.sum += weights.of_child[i];
+inline LightTree::Weights LightTree::weigh_children(const Node& node, const LightQuery& at) const {
+  WholeBlock::Values of_whole;  // negative: not weighed as one
+  if (node.block != kNone) {
+    weigh_wholes_(blocks_[node.block], node.children, at, of_whole);
+  } else {
+    of_whole.fill(-1);
   }
+  Weights weights;
+  double sum = 0;
+  for (std::uint32_t i = 0; i < node.children; ++i) {
+    const bool weighed = of_whole[i] >= 0;
+    const double weight = weighed ? double{of_whole[i]} : importance(nodes_[node.first_child + i], at);
+    weights.of_child[i] = weight;
+    sum += weight;
+  }
+  weights.sum = sum;
   return weights;
 }
 
@@ -195,11 +184,10 @@ std::optional<LightTree::Choice> LightTree::choose(const LightQuery& at, double 
     if (!(weights.sum > 0)) return std::nullopt;
     double target = u * weights.sum;
     std::uint32_t child = 0;
-    for (std::uint32_t i = 0; i < node.children; ++i) {
-      if (weights.of_child[i] == 0) continue;
-      child = i;  // the last of any weight, should rounding lead past all
-      if (target < weights.of_child[i]) break;
-      target -= weights.of_child[i];
+    while (child < node.children && target >= weights.of_child[child]) target -= weights.of_child[child++];
+    if (child == node.children) {  // rounding led past all
+      do --child;
+      while (weights.of_child[child] == 0);
     }
     u = std::clamp(target / weights.of_child[child], 0.0, kBelowOne);
     pmf *= weights.of_child[child] / weights.sum;
@@ -211,7 +199,7 @@ std::optional<LightTree::Choice> LightTree::choose(const LightQuery& at, double 
 }
 
 LightTree::Choice LightTree::choice_of(const LightQuery& at, std::uint32_t emitter) const {
-  const auto& [leaf, group] = places_[emitter];
+  const auto& [leaf, group, whole] = places_[emitter];
   const std::uint32_t light = group != kNone && is_light(nodes_[group], at.x) ? group : leaf;
   double pmf = 1;
   for (std::uint32_t node = light; nodes_[node].parent != kNone; node = nodes_[node].parent) {

@@ -8,6 +8,7 @@
 #include "src/lights/light_bounds.h"
 #include "src/lights/light_sampler.h"
 #include "src/lights/quad_light.h"
+#include "src/lights/sphere_cone.h"
 #include "src/lights/weigh_wholes.h"
 #include "src/lights/whole_light.h"
 
@@ -43,11 +44,7 @@ class LightTree {
   [[nodiscard]] Choice choice_of(const LightQuery& at, std::uint32_t emitter) const;
 
   /// The whole light that an emitter is a part of, or null.
-  [[nodiscard]] const WholeLight* whole_of(std::uint32_t emitter) const {
-    const std::uint32_t group = places_[emitter].group;
-    if (group == kNone || nodes_[group].whole == kNone) return nullptr;
-    return &wholes_[nodes_[group].whole];
-  }
+  [[nodiscard]] const WholeLight* whole_of(std::uint32_t emitter) const { return places_[emitter].whole; }
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
@@ -65,6 +62,7 @@ class LightTree {
   /// The nodes of an emitter, and of the whole light or the quad it belongs to if it does.
   struct Place {
     std::uint32_t leaf = kNone, group = kNone;
+    const WholeLight* whole = nullptr;
   };
   class Builder;
 
@@ -76,10 +74,25 @@ class LightTree {
     double sum = 0;
   };
   [[nodiscard]] Weights weigh_children(const Node& node, const LightQuery& at) const;
-  [[nodiscard]] bool is_light(const Node& node, const Vec3& x) const;
+  /// Whether the node is a light by itself as seen from x.
+  [[nodiscard]] bool is_light(const Node& node, const Vec3& x) const {
+    if (node.children == 0) return true;
+    if (node.quad != kNone) return quads_[node.quad].view().is_far(x);
+    if (node.whole == kNone) return false;
+    const WholeLight& whole = wholes_[node.whole];
+    return SphereCone::can_be_sampled(whole.centre, whole.radius, x);
+  }
   [[nodiscard]] double importance(const Node& node, const LightQuery& at) const;
   [[nodiscard]] double irradiance_from(const Node& node, const LightQuery& at) const;
-  [[nodiscard]] Choice choice(std::uint32_t node, double pmf) const;
+  /// Of a node that is a light as seen from where the choice is made.
+  [[nodiscard]] Choice choice(std::uint32_t index, double pmf) const {
+    const Node& node = nodes_[index];
+    Choice light{.pmf = pmf, .emitter = node.emitter};
+    if (node.children == 0) return light;
+    if (node.whole != kNone) light.whole = &wholes_[node.whole];
+    if (node.quad != kNone) light.quad = &quads_[node.quad];
+    return light;
+  }
 
   std::span<const Emitter> emitters_;
   std::vector<EmitterView> views_;  // by emitter

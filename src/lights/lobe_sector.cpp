@@ -8,30 +8,24 @@
 #include "src/lights/tangent.h"
 
 namespace lemma {
-namespace {
 
-// Over a cone so much narrower than the lobe, directions uniform over it are better ones anyway.
-constexpr float kNarrowest = 0.5f;
-
-}  // namespace
-
-LobeSector::LobeSector(const Reflection& reflection, const SphereCone& cone)
-    : mirror_(reflection.mirror), axis_(cone.axis()), width_(reflection.width) {
+std::optional<LobeSector> LobeSector::fit(const Reflection& reflection, const SphereCone& cone) {
+  LobeSector sector(reflection, cone);
+  const Vec3 axis(cone.axis());
   const auto cone_size = static_cast<float>(cone.one_minus_cos());
   const float width = reflection.width;
-  if (reflection.peak == 0 || cone_size < kNarrowest * width) return;
 
   // 1 - cos of the angles between mirror direction and axis, and of their sum and difference with the cone's
   // half angle.
-  const Vec3 difference = Vec3(axis_) - reflection.mirror;
+  const Vec3 difference = axis - reflection.mirror;
   const float apart = std::min(0.5f * dot(difference, difference), 2.0f);
   const float sine = std::sqrt(apart * (2 - apart)), cone_sine = std::sqrt(cone_size * (2 - cone_size));
   const float middle = apart + cone_size - apart * cone_size, reach = sine * cone_sine;
-  beside_ = apart > cone_size;
-  const float inner = beside_ ? std::max(middle - reach, 0.0f) : 0.0f;
+  sector.beside_ = apart > cone_size;
+  const float inner = sector.beside_ ? std::max(middle - reach, 0.0f) : 0.0f;
   const bool holds_opposite = apart + cone_size >= 2;
   const float outer = holds_opposite ? 2.0f : middle + reach;
-  const bool turns_around = !beside_ || cone_sine >= sine;
+  const bool turns_around = !sector.beside_ || cone_sine >= sine;
   const float half_turn = turns_around ? kPi : std::asin(cone_sine / sine);
 
   // Both ways of sampling waste a part of what they draw: the sector what misses the cone, if the outline's
@@ -39,13 +33,14 @@ LobeSector::LobeSector(const Reflection& reflection, const SphereCone& cone)
   // middle, all but 2 / (2 + cone / lobe).
   const float fallen = std::exp((inner - outer) / width);
   const float mass = width * half_turn * (1 - fallen);  // of half the sector, over the density at its edge
-  const float lobe = reflection.mean(Vec3(axis_), cone_size) - reflection.diffuse;
+  const float lobe = reflection.mean(axis, cone_size) - reflection.diffuse;
   const float kept = lobe * cone_size * kPi;
   const float drawn = reflection.peak * std::exp(-inner / width) * mass;
-  if (!(kept * (2 * width + cone_size) > 2 * width * drawn)) return;
-  inner_ = inner, fallen_ = fallen, half_turn_ = half_turn;
-  peak_density_ = 1 / (2 * double{mass});
-  share_ = lobe / (lobe + reflection.diffuse);
+  if (!(kept * (2 * width + cone_size) > 2 * width * drawn)) return std::nullopt;
+  sector.inner_ = inner, sector.fallen_ = fallen, sector.half_turn_ = half_turn;
+  sector.peak_density_ = 1 / (2 * double{mass});
+  sector.share_ = lobe / (lobe + reflection.diffuse);
+  return sector;
 }
 
 Vec3d LobeSector::sample(const Vec2& u) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "src/core/pdf.h"
 #include "src/core/reflection.h"
 #include "src/lights/sphere_cone.h"
@@ -13,19 +15,30 @@ namespace lemma {
 /// light covers most of the lobe.
 class LobeSector {
  public:
-  LobeSector(const Reflection& reflection, const SphereCone& cone);
+  /// @return nothing where directions uniform over the cone serve better
+  [[nodiscard]] static std::optional<LobeSector> find(const Reflection& reflection, const SphereCone& cone) {
+    // So it is over a cone so much narrower than the lobe.
+    constexpr float narrowest = 0.5f;
+    const auto cone_size = static_cast<float>(cone.one_minus_cos());
+    if (reflection.peak == 0 || cone_size < narrowest * reflection.width) return std::nullopt;
+    return fit(reflection, cone);
+  }
 
-  /// The part of the samples of the light that should be drawn here, the rest uniformly over the cone: none
-  /// where those serve better, else that of the light that the lobe reflects; below 1.
+  /// The part of the samples of the light that should be drawn here, the rest uniformly over the cone: that
+  /// of the light that the lobe reflects; in (0, 1).
   [[nodiscard]] double share() const { return share_; }
 
-  /// Unit direction for u uniform in [0,1)^2, if the share is not 0; it may miss the cone.
+  /// Unit direction for u uniform in [0,1)^2; it may miss the cone.
   [[nodiscard]] Vec3d sample(const Vec2& u) const;
 
   /// Density with which sample() returns a unit direction of the cone.
   [[nodiscard]] PdfSolidAngle pdf(const Vec3d& w) const;
 
  private:
+  LobeSector(const Reflection& reflection, const SphereCone& cone)
+      : mirror_(reflection.mirror), axis_(cone.axis()), width_(reflection.width) {}
+  static std::optional<LobeSector> fit(const Reflection& reflection, const SphereCone& cone);
+
   Vec3d mirror_, axis_;
   double width_;
   bool beside_ = false;  // the cone does not hold the mirror direction

@@ -14,27 +14,27 @@ constexpr float kLargestBelow1 = 1 - 0x1p-24f;
 class WholeView {
  public:
   WholeView(const WholeLight& light, const LightQuery& at)
-      : cone_(light.centre, light.radius, at.x), lobe_(at.reflection, cone_) {}
+      : cone_(light.centre, light.radius, at.x), lobe_(LobeSector::find(at.reflection, cone_)) {}
 
   /// For u uniform in [0, 1)^2; nothing if the direction misses the cone.
   [[nodiscard]] std::optional<Vec3d> sample(const Sampler::ChoicePair& u) const {
-    const auto [by_lobe, x] = decide(u.x, lobe_.share());
+    const auto [by_lobe, x] = decide(u.x, lobe_ ? lobe_->share() : 0);
     if (!by_lobe) return cone_.sample({x, u.y});
-    const Vec3d w = lobe_.sample({x, u.y});
+    const Vec3d w = lobe_->sample({x, u.y});
     return cone_.holds(w) ? std::optional(w) : std::nullopt;
   }
 
   /// @param to_light  within the cone
   [[nodiscard]] PdfSolidAngle pdf(double pmf, const Vec3d& to_light) const {
-    const double uniform = 1 / cone_.solid_angle(), share = lobe_.share();
-    if (share == 0) return {static_cast<float>(pmf * uniform)};
-    const double by_lobe = lobe_.pdf(normalize(to_light)).value;
+    const double uniform = 1 / cone_.solid_angle();
+    if (!lobe_) return {static_cast<float>(pmf * uniform)};
+    const double share = lobe_->share(), by_lobe = lobe_->pdf(normalize(to_light)).value;
     return {static_cast<float>(pmf * ((1 - share) * uniform + share * by_lobe))};
   }
 
  private:
   SphereCone cone_;
-  LobeSector lobe_;
+  std::optional<LobeSector> lobe_;
 };
 
 /// A light by a tree (light_tree.h), by what the surface reflects of it, at a cost that grows with the

@@ -1,7 +1,6 @@
 #include "src/render/film.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -49,8 +48,7 @@ Film::Film(int width, int height, std::uint32_t replicates)
   sums_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * cells_a_pixel());
 }
 
-void Film::prepare(int x, int y, std::uint32_t sample) {
-  if (replicates_ > 1 || sample < 4 || !std::has_single_bit(sample)) return;
+void Film::join_halves(int x, int y) {
   PixelSum* c = cells(x, y);
   c[0] += c[1];
   c[1] = c[2];

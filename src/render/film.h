@@ -77,7 +77,10 @@ class Film {
   [[nodiscard]] int height() const { return height_; }
 
   /// Must be called for a pixel's samples in order, before the first of each index.
-  void prepare(int x, int y, std::uint32_t sample);
+  void prepare(int x, int y, std::uint32_t sample) {
+    const bool is_power_of_two = (sample & (sample - 1)) == 0;  // std::has_single_bit is a call
+    if (replicates_ == 1 && sample >= 4 && is_power_of_two) join_halves(x, y);
+  }
   void add(int x, int y, std::uint32_t sample, const Rgb& value) { cells(x, y)[cell_of(sample)].add(value); }
 
   [[nodiscard]] Image image() const;
@@ -90,6 +93,9 @@ class Film {
   [[nodiscard]] std::uint32_t parts() const { return replicates_ > 1 ? replicates_ : 2; }
 
  private:
+  /// Both halves become the first one.
+  void join_halves(int x, int y);
+
   /// With one replicate: S samples, S samples and the next up to 2 S, for a power of two S.
   static constexpr std::uint32_t kHalvingCells = 3;
 

@@ -15,9 +15,4 @@ Camera::Camera(const CameraView& view) : eye_(view.eye), width_(view.width), hei
   corner_ = forward + right * (-0.5 * width_ * pixel) + up * half_height;
 }
 
-Ray Camera::ray_through(float x, float y) const {
-  const Vec3d direction = corner_ + step_x_ * static_cast<double>(x) + step_y_ * static_cast<double>(y);
-  return {.origin = eye_, .direction = Vec3(normalize(direction))};
-}
-
 }  // namespace lemma

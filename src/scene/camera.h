@@ -21,7 +21,10 @@ class Camera {
   [[nodiscard]] int height() const { return height_; }
 
   /// The ray through (x, y) of the image plane, in pixels from the upper left corner; unit direction.
-  [[nodiscard]] Ray ray_through(float x, float y) const;
+  [[nodiscard]] Ray ray_through(float x, float y) const {
+    const Vec3d direction = corner_ + step_x_ * static_cast<double>(x) + step_y_ * static_cast<double>(y);
+    return {.origin = eye_, .direction = Vec3(normalize(direction))};
+  }
 
  private:
   Vec3 eye_;

@@ -38,9 +38,9 @@ float mixture_pdf(const Material& m, const SomeLobe& lobe, const Vec3& wi, float
 }
 
 template <class SomeLobe>
-std::optional<BrdfSample> sample_mixture(const Material& m, const SomeLobe& lobe, float choice,
+std::optional<BrdfSample> sample_mixture(const Material& m, const SomeLobe& lobe, bool diffuse,
                                          const Vec2& u) {
-  const Vec3 wi = choice < m.diffuse_probability ? cosine_hemisphere(u) : lobe.sample(u);
+  const Vec3 wi = diffuse ? cosine_hemisphere(u) : lobe.sample(u);
   if (wi.z <= 0) return std::nullopt;
   const float cos_n = lobe.cos_n(wi), density = mixture_pdf(m, lobe, wi, cos_n);
   if (density <= 0) return std::nullopt;
@@ -85,12 +85,6 @@ Material make_material(const Rgb& kd, const Rgb& ks, float exponent, const BrdfO
           .outline = outline_of(kd, ks, exponent, options)};
 }
 
-Reflection outline(const Material& m, const Vec3& mirror) {
-  Reflection reflection = m.outline;
-  reflection.mirror = mirror;
-  return reflection;
-}
-
 float largest_albedo(const Material& m) {
   // The Phong lobe without its factor reflects 2 pi / (n + 2) at normal incidence.
   const float lobe = m.lobe == Lobe::phong ? m.specular_factor * 2 * kPi / (m.exponent + 2) : 1;
@@ -108,7 +102,7 @@ BrdfValue Phong<Specular>::at(const Vec3& wo, const Vec3& wi) const {
 }
 
 template <bool Specular>
-std::optional<BrdfSample> Phong<Specular>::sample(const Vec3& wo, float choice, const Vec2& u) const {
+std::optional<BrdfSample> Phong<Specular>::sample_part(const Vec3& wo, bool diffuse, const Vec2& u) const {
   if (wo.z <= 0) return std::nullopt;
   if (is_lambert()) {
     if (is_black(material_.kd)) return std::nullopt;
@@ -116,13 +110,7 @@ std::optional<BrdfSample> Phong<Specular>::sample(const Vec3& wo, float choice, 
     return BrdfSample{wi, {wi.z * kInvPi}, material_.kd};
   }
   return with_lobe(material_, wo,
-                   [&](const auto& lobe) { return sample_mixture(material_, lobe, choice, u); });
-}
-
-template <bool Specular>
-std::optional<BrdfSample> Phong<Specular>::sample(const Vec3& wo, const Sampler::ChoicePair& u) const {
-  const auto [diffuse, x] = decide(u.x, material_.diffuse_probability);
-  return sample(wo, diffuse ? 0.0f : 1.0f, {x, u.y});
+                   [&](const auto& lobe) { return sample_mixture(material_, lobe, diffuse, u); });
 }
 
 template <bool Specular>

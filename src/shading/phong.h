@@ -7,6 +7,7 @@
 #include "src/core/rgb.h"
 #include "src/core/sampler.h"
 #include "src/core/vec.h"
+#include "src/core/warp.h"
 #include "src/shading/brdf_options.h"
 
 namespace lemma {
@@ -34,7 +35,10 @@ struct Material {
 
 /// The material's BRDF in outline for a direction whose mirror direction is given. Blinn's lobe is about that
 /// of n / 4 there, since the half vector turns by half the angle.
-[[nodiscard]] Reflection outline(const Material& material, const Vec3& mirror);
+[[nodiscard]] inline Reflection outline(const Material& material, const Vec3& mirror) {
+  const Reflection& any = material.outline;
+  return {.mirror = mirror, .diffuse = any.diffuse, .peak = any.peak, .width = any.width};
+}
 
 /// The part of the light that the material reflects at most, over channels and directions: that at normal
 /// incidence.
@@ -74,12 +78,18 @@ class Phong {
   /// @return nothing if the material is black or the lobe's direction lies below the surface, which
   /// directions
   ///   of the truncated lobe do by rounding alone
-  [[nodiscard]] std::optional<BrdfSample> sample(const Vec3& wo, float choice, const Vec2& u) const;
+  [[nodiscard]] std::optional<BrdfSample> sample(const Vec3& wo, float choice, const Vec2& u) const {
+    return sample_part(wo, choice < material_.diffuse_probability, u);
+  }
 
   /// The same for a pair uniform in [0, 1)^2, of which x also decides.
-  [[nodiscard]] std::optional<BrdfSample> sample(const Vec3& wo, const Sampler::ChoicePair& u) const;
+  [[nodiscard]] std::optional<BrdfSample> sample(const Vec3& wo, const Sampler::ChoicePair& u) const {
+    const auto [diffuse, x] = decide(u.x, material_.diffuse_probability);
+    return sample_part(wo, diffuse, {x, u.y});
+  }
 
  private:
+  [[nodiscard]] std::optional<BrdfSample> sample_part(const Vec3& wo, bool diffuse, const Vec2& u) const;
   [[nodiscard]] bool is_lambert() const;
 
   const Material& material_;
