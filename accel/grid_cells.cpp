@@ -29,7 +29,7 @@ constexpr int kMaxDepth = 3;           // grids within grids
 constexpr std::size_t kChunk = 4096;  // triangles that one task sorts in
 
 /// A cell is widened by this part of its size, for the rounding of the walk: up to 2^-10 of a cell
-/// (GridWalk).
+/// (GridCrossing).
 constexpr double kCellMargin = 1.0 / 256;
 
 /// And by this part of the scene's size, for the rounding of hits: a hit lies within kPlaneError * kRoundoff

@@ -12,9 +12,9 @@
 
 namespace lemma {
 
-/// A box cut into equal cells, of which the occupied ones have records. One line of the cache.
+/// A box cut into equal cells, of which the occupied ones have records. Two lines of the cache.
 struct alignas(64) GridLevel {
-  /// So many roundings are still small against the margin (GridWalk).
+  /// So many roundings are still small against the margin (GridCrossing).
   static constexpr int kMaxCellsPerAxis = 4096;
 
   Vec3d lo{0};                         // lower corner of the box; nothing lies on its boundary
