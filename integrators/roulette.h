@@ -42,9 +42,16 @@ inline constexpr float kSmallestSurvival = 0.05f;  // bounds the weight of the p
   return true;
 }
 
-/// Whether the variance is infinite where paths bounce between surfaces of an albedo without end, as in a
-/// closed scene: the second moment of the k-th bounce grows with (albedo^2 / q)^k, so that `fixed` needs
-/// albedos below sqrt(0.6) = 0.775. `throughput` is never capped below 1 for the same reason.
-[[nodiscard]] bool has_infinite_variance(Roulette roulette, float albedo);
+/// The second moment of the factor by which the throughput changes at a vertex, over albedo^2, at most. The
+/// factor of one BRDF sample is the albedo. That of mis-report is the sum of both its samples' factors a and
+/// b: on Lambert's surfaces neither exceeds the albedo and their means make it up, so that E (a + b)^2 <=
+/// albedo (E a + E b) + 2 E a E b <= 1.5 albedo^2 (1.05 where all directions see light of one radiance).
+inline constexpr float kOneSampleSpread = 1, kTwoSampleSpread = 1.5f;
+
+/// Whether the variance may be infinite where paths bounce between surfaces of an albedo without end, as in a
+/// closed scene: the second moment of the k-th bounce grows with (spread albedo^2 / q)^k, so that `fixed`
+/// needs albedos below sqrt(0.6) = 0.775, and below 0.632 with mis-report. `throughput` is never capped below
+/// 1 for the same reason.
+[[nodiscard]] bool has_infinite_variance(Roulette roulette, float albedo, float spread);
 
 }  // namespace lemma

@@ -74,7 +74,7 @@ void add_transport_options(CLI::App& app, RenderOptions& o) {
       "How points on lights are chosen");
   add_choice(
       app, "--mis", heuristics(), [&o](auto& entry) { o.integrator_options.heuristic = entry.value; },
-      "Weights of --integrator mis");
+      "Weights of --integrator mis and mis-report");
   add_choice(
       app, "--technique", counted_samples(),
       [&o](auto& entry) { o.integrator_options.counted_samples = entry.value; },

@@ -10,6 +10,7 @@
 #include "src/app/progress.h"
 #include "src/app/render_passes.h"
 #include "src/app/summary.h"
+#include "src/app/unused_options.h"
 #include "src/core/machine.h"
 #include "src/core/parallel.h"
 #include "src/render/image_file.h"
@@ -30,6 +31,7 @@ fs::path default_output(const LoadReport& report) {
 /// Checks all files that are to be written and whose names are known without the scene.
 void check_outputs(const RenderOptions& options) {
   check_pixel_options(options);
+  check_technique(options);
   for (const fs::path& path : options.outputs) check_writable(path);
   if (!options.stats.empty()) check_whole_file(options.stats);
   if (!options.explain_json.empty()) check_whole_file(options.explain_json);
@@ -39,12 +41,16 @@ void check_outputs(const RenderOptions& options) {
 void warn_of_options(const RenderOptions& options, LoadedScene& loaded) {
   const IntegratorOptions& i = options.integrator_options;
   const float albedo = largest_albedo(loaded.scene, i.emitters_reflect);
-  if (!has_infinite_variance(i.roulette, albedo)) return;
+  const bool two_samples = options.integrator.name == "mis-report";
+  const float spread = two_samples ? kTwoSampleSpread : kOneSampleSpread;
+  if (!has_infinite_variance(i.roulette, albedo, spread)) return;
   warn(loaded.report.warnings, {loaded.report.xml},
        fmt::format(
-           "--rr {}: surfaces reflect up to {:.3g} of the light, whose square is not below {:.1f}: the "
-           "variance is infinite where paths cannot leave; --rr throughput has no such limit",
-           name_of(roulettes(), i.roulette), albedo, kFixedSurvival));
+           "--rr {}: surfaces reflect up to {:.3g} of the light, whose square{} is not below {:.1f}: the "
+           "variance {} infinite where paths cannot leave; --rr throughput has no such limit",
+           name_of(roulettes(), i.roulette), albedo,
+           two_samples ? " times the 1.5 of mis-report's two samples" : "", kFixedSurvival,
+           two_samples ? "can be" : "is"));
 }
 
 /// A reference with the random numbers of the image has errors of its own that are not independent of the
@@ -126,6 +132,7 @@ BuiltAccelerator build_accelerator(const RenderOptions& options, const Scene& sc
 
 ExitCode run_render(const RenderOptions& options) {
   check_outputs(options);
+  if (!options.quiet) report_warnings(unused_options(options), false);
   const ThreadLimit limit(options.threads);
   const LoadedScene loaded = load(options);
   const Scene& scene = loaded.scene;

@@ -7,7 +7,7 @@ import pty
 import re
 import unittest
 
-from lemma import LemmaTest
+from lemma import SCENES, LemmaTest
 
 SCENE_LINE = r"cornell-box\.xml \+ cornell-box\.obj \+ cornell-box\.mtl: 32 triangles .*, camera \d+x\d+\n"
 PROGRESS_LINE = r" *(\d+) %  .*\n"
@@ -56,6 +56,43 @@ class VarianceTest(LemmaTest):
 
     def test_throughput_has_no_such_limit(self):
         self.assertNotIn("warning", self.render_with_albedo(0.9))
+
+
+    def test_two_samples_a_vertex_vary_more(self):
+        self.assertIn("warning: --rr fixed: surfaces reflect up to 0.725 of the light, whose square times the 1.5 of "
+                      "mis-report's two samples is not below 0.6: the variance can be infinite",
+                      self.render_with_albedo(0.725, "--rr", "fixed", "--integrator", "mis-report"))
+
+
+class UnusedOptionsTest(LemmaTest):
+    """Options that change nothing beside others."""
+
+    def test_are_warned_of(self):
+        for unused, beside in (("--lights power", "--integrator brdf"), ("--mis balance", "--integrator brdf"),
+                               ("--mis balance", "--integrator direct"), ("--mis balance", "--technique light"),
+                               ("--lights power", "--technique brdf"), ("--phong-norm n+2", "--brdf blinn-phong"),
+                               ("--brdf-sampling p6", "--brdf blinn-phong"),
+                               ("--replicates 4", "--sampler independent")):
+            with self.subTest(unused=unused, beside=beside):
+                warning = f"lemma: warning: {unused} changes nothing with {beside}\n"
+                self.assertIn(warning, self.render(*unused.split(), *beside.split()).stderr)
+
+    def test_change_no_pixel(self):
+        for unused, beside in (("--lights power", "--integrator brdf"), ("--mis balance", "--integrator direct")):
+            self.assert_same_pixels(self.render_to("with.exr", *unused.split(), *beside.split()),
+                                    self.render_to("without.exr", *beside.split()))
+
+    def test_there_is_no_warning_of_used_ones(self):
+        for options in ("--lights power --mis balance", "--integrator mis-report --mis balance",
+                        "--technique light --lights power", "--brdf-sampling p6 --phong-norm n+2", "--replicates 4"):
+            with self.subTest(options):
+                self.assertNotIn("warning", self.render(*options.split()).stderr)
+
+    def test_a_technique_is_one_of_mis(self):
+        for integrator in ("brdf", "direct", "mis-report"):
+            self.assert_refused(["render", SCENES / "cornell-box", "--technique", "light", "--integrator", integrator],
+                                f"lemma: error: --technique light with --integrator {integrator}\n"
+                                "  hint: leave out --integrator: --technique chooses among the samples of mis")
 
 
 class SummaryTest(LemmaTest):

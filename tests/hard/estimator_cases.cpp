@@ -109,7 +109,7 @@ Outcome furnace(std::string_view backend) {
   for (const float albedo : {0.5f, 0.9f}) {
     for (const char* integrator : {"mis", "brdf", "mis-report"}) {
       for (const Roulette roulette : {Roulette::throughput, Roulette::fixed}) {
-        if (has_infinite_variance(roulette, albedo)) continue;
+        if (has_infinite_variance(roulette, albedo, kTwoSampleSpread)) continue;
         const IntegratorOptions options{.roulette = roulette, .emitters_reflect = true};
         const Estimate e =
             mean_over_seeds(closed_box(albedo), {backend, integrator, "tree", options}, 16, 0, 16);
