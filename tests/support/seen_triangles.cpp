@@ -103,6 +103,10 @@ const std::vector<SeenTriangle>& hard_triangles() {
   return cases;
 }
 
+double area_of(const Corners& part, const SeenTriangle&) {
+  return 0.5 * lemma::length(lemma::cross(part[1] - part[0], part[2] - part[0]));
+}
+
 double solid_angle_of(const Corners& part, const SeenTriangle& seen) {
   return exact_solid_angle(part, seen.x);
 }

@@ -54,6 +54,7 @@ class Partition {
   std::size_t parts_ = 0;
 };
 
+[[nodiscard]] double area_of(const Corners& part, const SeenTriangle& seen);
 [[nodiscard]] double solid_angle_of(const Corners& part, const SeenTriangle& seen);
 [[nodiscard]] double projected_solid_angle_of(const Corners& part, const SeenTriangle& seen);
 
