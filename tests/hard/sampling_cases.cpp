@@ -100,15 +100,19 @@ Vec3d sample_by_cosine(const SeenTriangle& seen, const Vec2& u) {
 }
 
 /// Directions in parts of the triangle of known measure: chi-square, each triangle at a significance such
-/// that all of them together have 1 % (Sidak); and none may lie outside.
-Outcome histograms(DirectionSampler sample, Partition::Measure measure, double smallest) {
+/// that all of them together have 1 % (Sidak); and none may lie outside. Triangles of other measures are
+/// drawn by area, and are named.
+Outcome histograms(DirectionSampler sample, Partition::Measure measure, double smallest, double largest) {
   constexpr std::uint32_t draws = 60000;
   Outcome outcome;
   const auto& cases = hard_triangles();
   const double significance = -std::expm1(std::log1p(-0.01) / static_cast<double>(cases.size()));
   for (const SeenTriangle& seen : cases) {
     const Partition partition(seen, measure, 150);
-    if (partition.total() < smallest) continue;
+    if (partition.total() < smallest || partition.total() > largest) {
+      std::printf("by area: %.*s\n", static_cast<int>(seen.name.size()), seen.name.data());
+      continue;
+    }
     std::vector<double> counts(partition.shares().size(), 0.0);
     int outside = 0;
     Sampler random(93, 0, 0);
@@ -125,12 +129,12 @@ Outcome histograms(DirectionSampler sample, Partition::Measure measure, double s
 
 /// 17
 Outcome spherical_triangle_histograms(std::string_view) {
-  return histograms(sample_uniformly, solid_angle_of, 0);
+  return histograms(sample_uniformly, solid_angle_of, 0, kPi2 * (1 - 1e-5));
 }
 
 /// 18
 Outcome projected_triangle_histograms(std::string_view) {
-  return histograms(sample_by_cosine, projected_solid_angle_of, 1e-9);
+  return histograms(sample_by_cosine, projected_solid_angle_of, 1e-9, kPi2);
 }
 
 /// 18: the projected solid angle against 50 digits, and samples above the horizon and within the triangle.

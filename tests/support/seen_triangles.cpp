@@ -97,6 +97,9 @@ const std::vector<SeenTriangle>& hard_triangles() {
       {"strip close by", {{-50, 0.01f, 0.02f}, {50, 0.01f, 0.02f}, {0, 0.011f, 0.03f}}, o, up},
       {"near a hemisphere", {{900, -800, 1}, {100, 1200, 1}, {-1000, -700, 1}}, o, up},
       {"near a hemisphere, tilted", {{900, -800, 1}, {100, 1200, 1}, {-1000, -700, 1}}, o, tilted},
+      {"nearer: height 0.1", {{900, -800, 0.1f}, {100, 1200, 0.1f}, {-1000, -700, 0.1f}}, o, up},
+      {"nearer: height 0.01", {{900, -800, 0.01f}, {100, 1200, 0.01f}, {-1000, -700, 0.01f}}, o, tilted},
+      {"nearer: height 0.001", {{900, -800, 1e-3f}, {100, 1200, 1e-3f}, {-1000, -700, 1e-3f}}, o, up},
       {"by the plane and an edge", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0.3f, 1e-3f, 1e-3f}, {0, 0.6f, -0.8f}},
       {"by the plane, beyond an edge", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0.3f, -1e-4f, 1e-3f}, {0, 1, 0}},
       {"by a vertex", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {1e-4f, 2e-4f, 1e-4f}, normalize(Vec3(1, 1, 0.1f))}};

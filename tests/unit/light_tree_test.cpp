@@ -5,7 +5,6 @@
 
 #include "src/core/frame.h"
 #include "src/lights/light_sampler.h"
-#include "src/lights/lobe_sector.h"
 #include "src/lights/quad_light.h"
 #include "src/lights/sphere_cone.h"
 #include "src/lights/spherical_triangle.h"
@@ -132,82 +131,6 @@ TEST(QuadLight, IsALinearImageOfTheSquare) {
     // From a point straight below, at distance 2, where density by area is density by angle / 4.
     const Connection straight{{0, 2, 0}, 4, 1, 2};
     EXPECT_NEAR(double{quads[0].pdf(0.5, e, straight).value}, 0.5 * 4 / quad_area, 1e-6);
-  }
-}
-
-/// A lobe whose mirror direction makes this angle with the axis of cones around z.
-Reflection lobe_beside_z(double angle, float width) {
-  const Vec3 mirror(static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle)));
-  return {.mirror = mirror, .diffuse = 0.01f, .peak = 0.1f / width, .width = width};
-}
-
-/// A lobe and a cone of which the sector serves better than directions uniform over the cone.
-struct SectorCase {
-  double angle;  // from mirror direction to axis
-  float width;
-  double radius;  // of a sphere at distance 1
-};
-// The mirror direction in the middle, off it, at the rim, beside; tiny and nearly a hemisphere.
-constexpr SectorCase kSectors[] = {{0, 1e-3f, 0.2},     {0.1, 1e-3f, 0.2},   {0.2, 1e-3f, 0.2},
-                                   {0.3, 5e-3f, 0.2},   {3e-3, 1e-6f, 2e-3}, {0.9, 0.05f, 0.9},
-                                   {1.6, 0.3f, 0.9899}, {0, 0.5f, 0.9899}};
-
-TEST(LobeSector, DensityIsTheInverseJacobian) {
-  for (const auto& [angle, width, radius] : kSectors) {
-    const SphereCone cone({0, 0, 1}, radius, {0, 0, 0});
-    const LobeSector sector = LobeSector::find(lobe_beside_z(angle, width), cone).value();
-    ASSERT_GT(sector.share(), 0) << angle;
-    ASSERT_LT(sector.share(), 1) << angle;
-    for (const Vec2& u : {Vec2(0.25f, 0.25f), Vec2(0.5f, 0.75f), Vec2(0.75f, 0.125f)}) {
-      constexpr float h = 0x1p-10f;
-      const Vec3d du = (sector.sample(u + Vec2(h, 0)) - sector.sample(u - Vec2(h, 0))) * (0.5 / h);
-      const Vec3d dv = (sector.sample(u + Vec2(0, h)) - sector.sample(u - Vec2(0, h))) * (0.5 / h);
-      const double density = double{sector.pdf(sector.sample(u)).value};
-      // Central differences err as for the cone. Mirror directions are unit to 2^-24 only: over the lobe's
-      // width, 1e-6 at least, and the distance of 3e-3 from it that is 1e-3.
-      EXPECT_NEAR(length(cross(du, dv)) * density, 1, 2e-3) << angle << " " << u;
-    }
-  }
-}
-
-/// All directions of the cone can be drawn: those that are drawn within it, each counted by 1 / density, add
-/// up to its solid angle. False alarms: one in 10^4 for all cases together.
-TEST(LobeSector, CoversTheCone) {
-  for (const auto& [angle, width, radius] : kSectors) {
-    const SphereCone cone({0, 0, 1}, radius, {0, 0, 0});
-    const LobeSector sector = LobeSector::find(lobe_beside_z(angle, width), cone).value();
-    std::vector<double> values;
-    for (std::uint32_t i = 0; i < 40000; ++i) {
-      Sampler random(46, i, 0);
-      const bool uniform = random.next() < 0.5f;  // which keeps 1 / density bounded
-      const Vec2 u = random.next_2d();
-      const Vec3d w = uniform ? cone.sample(u) : sector.sample(u);
-      const double density = 0.5 / cone.solid_angle() + 0.5 * double{sector.pdf(w).value};
-      values.push_back(cone.holds(w) ? 1 / (density * cone.solid_angle()) : 0);
-    }
-    const test::Estimate covered = test::estimate(values);
-    EXPECT_LT(std::abs(covered.mean - 1), test::z_limit(1e-4, std::size(kSectors)) * covered.standard_error)
-        << angle << " " << covered.mean << " +- " << covered.standard_error;
-  }
-}
-
-TEST(LobeSector, IsNotUsedWhereTheConeServesBetter) {
-  const SphereCone cone({0, 0, 1}, 0.1, {0, 0, 0});
-  EXPECT_FALSE(LobeSector::find(Reflection{}, cone));               // no lobe
-  EXPECT_FALSE(LobeSector::find(lobe_beside_z(0.05, 0.1f), cone));  // a much wider one
-  EXPECT_FALSE(LobeSector::find(lobe_beside_z(3, 1e-6f), cone));    // one that reflects nothing of the cone
-}
-
-TEST(LobeSector, SamplesStayInTheSectorAtTheExtremesOfU) {
-  constexpr float last = 1 - 0x1p-24f;
-  for (const auto& [angle, width, radius] : kSectors) {
-    const SphereCone cone({0, 0, 1}, radius, {0, 0, 0});
-    const LobeSector sector = LobeSector::find(lobe_beside_z(angle, width), cone).value();
-    for (const Vec2& u : {Vec2(0, 0), Vec2(last, 0), Vec2(0, last), Vec2(last, last)}) {
-      const Vec3d w = sector.sample(u);
-      EXPECT_NEAR(length(w), 1, 1e-15);
-      EXPECT_TRUE(std::isfinite(sector.pdf(w).value));
-    }
   }
 }
 
