@@ -3,6 +3,7 @@
 
 #include "src/core/sampler.h"
 #include "src/render/film.h"
+#include "src/shading/lobe.h"
 #include "src/shading/phong.h"
 #include "tests/hard/hard_case.h"
 #include "tests/support/hemisphere.h"
@@ -43,6 +44,30 @@ Outcome exponent_ladder(std::string_view) {
       const double tolerance = 32 * 0x1p-24 + n * std::sqrt(2 * x) * 0x1p-23;
       const double value = double{Phong<true>(material).eval(wo, wi).g};
       count(outcome, std::abs(value / expected - 1) < tolerance);
+    }
+  }
+  return outcome;
+}
+
+/// 20: what is drawn, against 1 - (1 - u)^(1 / (n + 1)) in long double: log1p and expm1 err by a unit in the
+/// last place, 2^-23, each, n + 1 and the division by half of it. In the direction x moves by as much again,
+/// and by the rounding of unit vectors times |d| as above, for each of the terms that a direction is the sum
+/// of.
+Outcome sampled_exponents(std::string_view) {
+  Outcome outcome;
+  const Vec3 wo = direction(35), mirror(-wo.x, -wo.y, wo.z);
+  const AboutAxis about(mirror);
+  for (const float n : {0.0f, 1.0f, 100.0f, 1e4f, 1e5f, 1e6f}) {
+    const PhongLobe<false> lobe(wo, n);
+    for (std::uint32_t bits = 1; bits < 1u << 24; bits += 4999) {
+      const float u = static_cast<float>(bits) * 0x1p-24f;
+      const auto expected =
+          static_cast<double>(-std::expm1(std::log1p(-static_cast<long double>(u)) / (n + 1.0L)));
+      const double x = sample_one_minus_cos(n, u);
+      count(outcome, std::abs(x / expected - 1) <= 6 * 0x1p-24);
+      const double length = std::sqrt(2 * expected);
+      count(outcome, std::abs(about.one_minus_cos(lobe.sample({u, 0.3f})) - expected) <
+                         0x1p-24 * (12 * expected + 8 * length));
     }
   }
   return outcome;
@@ -125,6 +150,7 @@ Outcome furnace(std::string_view backend) {
 std::span<const HardCase> estimator_cases() {
   static constexpr HardCase cases[] = {
       {"20 exponents 0 to 1e6", "the formula's digits", exponent_ladder},
+      {"20 samples of exponents 0 to 1e6", "the formula's digits", sampled_exponents},
       {"24 extremes of random numbers, BRDFs", "finite directions", extreme_numbers},
       {"25 a pixel of 1e7 samples", "the sum to 1e-12", many_samples}};
   return cases;

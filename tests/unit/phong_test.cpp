@@ -133,6 +133,28 @@ TEST(Phong, IsReciprocal) {
   }
 }
 
+/// Pairs within narrow lobes, that few pairs of the hemisphere are: exchanged, the difference of direction
+/// and mirror direction, and the sum that makes the half vector, change signs at most; 4 units in the last
+/// place.
+TEST(Phong, IsReciprocalWithinTheLobe) {
+  for (const auto& lobe : lobes()) {
+    for (const float n : {50.0f, 1e4f, 1e6f}) {
+      const Material material = grey(0, 1, n, {.lobe = lobe.value});
+      const Phong<true> brdf(material);
+      Sampler random(14, 0, 0);
+      int pairs = 0;
+      for (int i = 0; i < 2000; ++i) {
+        const Vec3 a = cosine_hemisphere(random.next_2d());
+        const auto b = brdf.sample(a, 0.5f, random.next_2d());
+        if (!b) continue;
+        ++pairs;
+        ASSERT_FLOAT_EQ(brdf.eval(a, b->wi).g, brdf.eval(b->wi, a).g) << n;
+      }
+      EXPECT_GT(pairs, 1500);
+    }
+  }
+}
+
 TEST(Phong, NormalisationIsAChoice) {
   const Material one = grey(0, 1, 3), two = grey(0, 1, 3, {.norm = PhongNorm::n_plus_2});
   const Vec3 up(0, 0, 1);
