@@ -48,7 +48,7 @@ class Accelerator {
 /// Number of cells of the uniform grid.
 struct GridResolution {
   enum class Rule {
-    density,      // by a model of cost: about 3000 cells, or one for 16 triangles (accel/grid_cells.cpp)
+    density,      // by a model of cost: about 3000 cells, or one for 16 triangles (accel/grid_resolution.cpp)
     twenty_seven  // 27 n cells: three times n^(1/3) an axis for a cube
   };
   Rule rule = Rule::density;

@@ -31,7 +31,6 @@ fs::path default_output(const LoadReport& report) {
 /// Checks all files that are to be written and whose names are known without the scene.
 void check_outputs(const RenderOptions& options) {
   check_pixel_options(options);
-  check_technique(options);
   for (const fs::path& path : options.outputs) check_writable(path);
   if (!options.stats.empty()) check_whole_file(options.stats);
   if (!options.explain_json.empty()) check_whole_file(options.explain_json);
@@ -149,8 +148,9 @@ ExitCode run_render(const RenderOptions& options) {
   const auto integrator = options.integrator.value(scene.needs.model, options.integrator_options);
   if (options.pixel) return run_pixel(options, {scene, *built.accel, *lights}, *integrator);
   Progress progress(options.quiet ? ProgressStyle::off : options.progress);
-  const auto [result, curve] =
+  const PassesResult passes =
       render_passes({scene, *built.accel, *lights}, *integrator, options, reference, progress);
+  const RenderResult& result = passes.result;
 
   const Metadata metadata = image_metadata(options, scene.view, result);
   const Image* const variance = result.spp > 1 ? &result.variance : nullptr;
@@ -161,7 +161,9 @@ ExitCode run_render(const RenderOptions& options) {
                            .accel_build_seconds = built.seconds,
                            .threads = limit.threads(),
                            .error = estimated_error(result.image, result.variance),
-                           .curve = curve};
+                           .curve = passes.curve,
+                           .reference_noise = passes.reference_noise,
+                           .target_reached = passes.target_reached};
   if (!options.stats.empty()) write_whole_file(options.stats, summary_json(options, figures, result));
   if (!options.quiet) fmt::print("{}", summary_text(options, figures, result));
   return result.invalid_samples > 0 ? kInvalidSamples : kDone;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "src/measure/error_figures.h"
 #include "src/measure/estimated_error.h"
@@ -47,15 +46,13 @@ class PassProgress {
   double shown_ = 0;
 };
 
-ErrorPoint error_point(const RenderResult& result, const ReadImage& reference) {
-  const ErrorFigures errors = error_figures(result.image, reference.image);
-  const ReferenceNoise noise =
-      reference.variance ? reference_noise(reference.image, *reference.variance) : ReferenceNoise{};
+ErrorPoint error_point(const RenderResult& result, const Image& reference, const ReferenceNoise& noise) {
+  const ErrorFigures errors = error_figures(result.image, reference);
   return {.spp = result.spp,
           .seconds = result.seconds,
           .cpu_seconds = result.cpu_seconds,
-          .rmse = std::sqrt(std::max(0.0, errors.mse - noise.mse)),
-          .relmse = std::max(0.0, errors.relmse - noise.relmse)};
+          .mse = errors.mse - noise.mse,
+          .relmse = errors.relmse - noise.relmse};
 }
 
 }  // namespace
@@ -84,6 +81,8 @@ PassesResult render_passes(const World& world, const Integrator& integrator, con
   Rendering rendering(world, integrator, options.settings);
   PassState state;
   PassesResult passes;
+  if (reference && reference->variance)
+    passes.reference_noise = reference_noise(reference->image, *reference->variance);
   for (std::uint32_t next = next_spp(rule, state); next > state.spp; next = next_spp(rule, state)) {
     rendering.render_to(next, [&](double part) { shown.update(state, next, part); });
     state = {.spp = next, .seconds = rendering.seconds()};
@@ -91,9 +90,12 @@ PassesResult render_passes(const World& world, const Integrator& integrator, con
     const RenderResult result = rendering.result();
     if (next >= StopRule::kFirstLook)
       state.relmse = estimated_error(result.image, result.variance).relmse.value;
-    if (reference) passes.curve.push_back(error_point(result, *reference));
+    if (!reference) continue;
+    passes.curve.push_back(
+        error_point(result, reference->image, passes.reference_noise.value_or(ReferenceNoise{})));
   }
   shown.finish();
+  if (rule.relmse) passes.target_reached = state.spp >= StopRule::kFirstLook && state.relmse <= *rule.relmse;
   passes.result = rendering.result();
   return passes;
 }

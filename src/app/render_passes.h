@@ -17,7 +17,9 @@ namespace lemma {
 
 struct PassesResult {
   RenderResult result;
-  std::vector<ErrorPoint> curve;  // one point a pass, if there is a reference
+  std::vector<ErrorPoint> curve;                  // one point a pass, if there is a reference
+  std::optional<ReferenceNoise> reference_noise;  // if it tells its variance
+  std::optional<bool> target_reached;             // if there is a target
 };
 
 /// Renders as many samples as options ask for: a number, a time, or an error.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace lemma {
@@ -42,12 +44,32 @@ std::string error_text(const RenderOptions& options, const RunFigures& figures) 
                      rather_too_large(options) ? "; rather too large, --replicates 2 has no bias" : "");
 }
 
-std::string curve_text(const std::vector<ErrorPoint>& curve) {
-  if (curve.empty()) return {};
-  std::string text =
-      fmt::format("against the reference:\n{:>10}{:>12}{:>14}{:>14}\n", "spp", "seconds", "RMSE", "relMSE");
-  for (const ErrorPoint& p : curve) {
-    text += fmt::format("{:>10}{:>12.3f}{:>14.6g}{:>14.6g}\n", p.spp, p.seconds, p.rmse, p.relmse);
+std::string target_text(const RenderOptions& options, const RunFigures& figures) {
+  if (!figures.target_reached) return {};
+  return fmt::format("target error: relMSE {} {}\n", *options.target_relmse,
+                     *figures.target_reached ? "reached" : "not reached: more samples or time are needed");
+}
+
+/// A difference of squared errors of which more than this part is the reference's own tells nothing.
+constexpr double kLeastErrorOfNoise = 0.5;
+
+std::string curve_text(const RunFigures& figures) {
+  if (figures.curve.empty()) return {};
+  std::string text = "against the reference";
+  const ReferenceNoise noise = figures.reference_noise.value_or(ReferenceNoise{});
+  if (figures.reference_noise) {
+    text += fmt::format(", whose own noise is subtracted (RMSE {:.3g}, relMSE {:.3g})", std::sqrt(noise.mse),
+                        noise.relmse);
+  }
+  text += fmt::format(":\n{:>10}{:>12}{:>14}{:>14}\n", "spp", "seconds", "RMSE", "relMSE");
+  const auto shown = [](double error, double of_reference, double value) {
+    const bool measured = error >= kLeastErrorOfNoise * of_reference;
+    return measured ? fmt::format("{:>14.6g}", value) : fmt::format("{:>14}", "below noise");
+  };
+  for (const ErrorPoint& p : figures.curve) {
+    text += fmt::format("{:>10}{:>12.3f}{}{}\n", p.spp, p.seconds,
+                        shown(p.mse, noise.mse, std::sqrt(std::max(p.mse, 0.0))),
+                        shown(p.relmse, noise.relmse, p.relmse));
   }
   return text;
 }
@@ -62,7 +84,8 @@ nlohmann::ordered_json curve_json(const std::vector<ErrorPoint>& curve) {
     points.push_back({{"spp", p.spp},
                       {"seconds", p.seconds},
                       {"cpu_seconds", p.cpu_seconds},
-                      {"rmse", p.rmse},
+                      {"mse", p.mse},
+                      {"rmse", p.mse >= 0 ? nlohmann::ordered_json(std::sqrt(p.mse)) : nullptr},
                       {"relmse", p.relmse}});
   }
   return points;
@@ -81,7 +104,7 @@ std::string summary_text(const RenderOptions& options, const RunFigures& figures
       fmt::format("rays: {}, {:.3g} million/s, {:.0f} % of the time in the accelerator\n", result.counts.rays,
                   rate(result.counts.rays, result.seconds) / 1e6, 100 * traversal_share(result.counts));
   text += fmt::format("time: {:.3f} s on {} threads\n", result.seconds, figures.threads);
-  text += error_text(options, figures) + curve_text(figures.curve);
+  text += error_text(options, figures) + target_text(options, figures) + curve_text(figures);
   if (result.counts.paths_cut > 0) {
     text += fmt::format("paths cut at depth {}: {} (the image lacks their light)\n",
                         options.integrator_options.max_depth, result.counts.paths_cut);
@@ -124,7 +147,15 @@ std::string summary_json(const RenderOptions& options, const RunFigures& figures
                                {"relmse", to_json(figures.error.relmse)},
                                {"rather_too_large", rather_too_large(options)}};
   }
-  if (!figures.curve.empty()) json["error_curve"] = curve_json(figures.curve);
+  if (figures.target_reached) json["target_reached"] = *figures.target_reached;
+  if (!figures.curve.empty()) {
+    json["reference"] = options.reference.string();
+    if (figures.reference_noise) {
+      json["reference_noise"] = {{"mse", figures.reference_noise->mse},
+                                 {"relmse", figures.reference_noise->relmse}};
+    }
+    json["error_curve"] = curve_json(figures.curve);
+  }
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;  // names of files may be no UTF-8
   return json.dump(2, ' ', false, replace) + "\n";
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/app/options.h"
+#include "src/measure/error_figures.h"
 #include "src/measure/estimated_error.h"
 
 namespace lemma {
@@ -12,7 +14,7 @@ namespace lemma {
 struct ErrorPoint {
   std::uint32_t spp = 0;
   double seconds = 0, cpu_seconds = 0;
-  double rmse = 0, relmse = 0;  // without the noise of the reference, if it tells its variance
+  double mse = 0, relmse = 0;  // less the noise of the reference, if it tells its variance: can be below 0
 };
 
 /// The figures of one rendering.
@@ -24,6 +26,8 @@ struct RunFigures {
   int threads = 0;
   EstimatedError error;           // 0 if there is no estimate: with one sample a pixel
   std::vector<ErrorPoint> curve;  // with --reference
+  std::optional<ReferenceNoise> reference_noise;
+  std::optional<bool> target_reached;  // with --target-error
 };
 
 /// For people: a few lines.

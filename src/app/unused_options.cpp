@@ -4,8 +4,7 @@
 
 #include <string>
 #include <string_view>
-
-#include "src/app/argument_error.h"
+#include <utility>
 
 namespace lemma {
 namespace {
@@ -19,15 +18,17 @@ class Unused {
   Warnings found;
 };
 
-/// The weights and light samples that an integrator does without.
+/// The techniques, weights and light samples that an integrator does without.
 void find_unused_sampling(const RenderOptions& o, Unused& unused) {
   const IntegratorOptions& i = o.integrator_options;
-  const bool one_kind = i.counted_samples != CountedSamples::both;
-  const std::string beside =
-      one_kind ? fmt::format("--technique {}", name_of(counted_samples(), i.counted_samples))
-               : fmt::format("--integrator {}", o.integrator.name);
-  const bool no_lights = o.integrator.name == "brdf" || i.counted_samples == CountedSamples::brdf;
-  const bool no_weights = no_lights || one_kind || o.integrator.name == "direct";
+  const bool mis = o.integrator.name == "mis", one_kind = i.counted_samples != CountedSamples::both;
+  const std::string_view technique = name_of(counted_samples(), i.counted_samples);
+  const std::string integrator = fmt::format("--integrator {}", o.integrator.name);
+  if (one_kind && !mis) unused.add("technique", technique, integrator);
+
+  const std::string beside = mis && one_kind ? fmt::format("--technique {}", technique) : integrator;
+  const bool no_lights = o.integrator.name == "brdf" || (mis && i.counted_samples == CountedSamples::brdf);
+  const bool no_weights = no_lights || (mis && one_kind) || o.integrator.name == "direct";
   if (no_lights && o.lights.name != RenderOptions{}.lights.name) unused.add("lights", o.lights.name, beside);
   if (no_weights && i.heuristic != IntegratorOptions{}.heuristic) {
     unused.add("mis", name_of(heuristics(), i.heuristic), beside);
@@ -35,14 +36,6 @@ void find_unused_sampling(const RenderOptions& o, Unused& unused) {
 }
 
 }  // namespace
-
-void check_technique(const RenderOptions& options) {
-  const CountedSamples counted = options.integrator_options.counted_samples;
-  if (options.integrator.name == "mis" || counted == CountedSamples::both) return;
-  throw ArgumentError(fmt::format("--technique {} with --integrator {}", name_of(counted_samples(), counted),
-                                  options.integrator.name),
-                      "leave out --integrator: --technique chooses among the samples of mis");
-}
 
 Warnings unused_options(const RenderOptions& options) {
   Unused unused;

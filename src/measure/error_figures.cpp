@@ -71,11 +71,11 @@ ReferenceNoise reference_noise(const Image& reference, const Image& variance) {
 std::vector<PixelDifference> largest_differences(const Image& image, const Image& reference,
                                                  std::size_t count) {
   std::vector<PixelDifference> all;
-  all.reserve(image.pixels.size());
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const auto a = channels(image.at(x, y)), r = channels(reference.at(x, y));
-      all.push_back({x, y, std::hypot(a[0] - r[0], a[1] - r[1], a[2] - r[2])});
+      const double distance = std::hypot(a[0] - r[0], a[1] - r[1], a[2] - r[2]);
+      if (distance > 0) all.push_back({x, y, distance});
     }
   }
   const auto kept = static_cast<std::ptrdiff_t>(std::min(count, all.size()));

@@ -37,7 +37,8 @@ struct PixelDifference {
   double distance = 0;
 };
 
-/// The `count` pixels that differ most, the largest first; of equal ones the first row by row.
+/// The `count` pixels that differ most, or fewer if fewer differ; the largest first, of equal ones the first
+/// row by row.
 [[nodiscard]] std::vector<PixelDifference> largest_differences(const Image& image, const Image& reference,
                                                                std::size_t count);
 

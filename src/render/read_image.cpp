@@ -67,6 +67,18 @@ Image pick(const OIIO::ImageSpec& spec, const std::vector<float>& values, const 
   return image;
 }
 
+void require_variances(const fs::path& path, const Image& variance) {
+  const auto bad = std::ranges::find_if(variance.pixels, [](const Rgb& v) {
+    return std::min({v.r, v.g, v.b}) < 0;
+  });
+  if (bad == variance.pixels.end()) return;
+  const auto index = static_cast<int>(bad - variance.pixels.begin());
+  throw bad_image(
+      path,
+      fmt::format("the layer variance is negative at {},{}", index % variance.width, index / variance.width),
+      "expected the variance of each value's mean, as lemma render writes it");
+}
+
 void require_finite(const fs::path& path, const Image& image, std::string_view layer) {
   const auto finite = [](const Rgb& c) {
     return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
@@ -107,6 +119,7 @@ ReadImage read_image(const fs::path& path) {
   if (has_all(variance)) {
     read.variance = pick(spec, values, variance);
     require_finite(path, *read.variance, " in the layer variance");
+    require_variances(path, *read.variance);
     read.parts = spec.get_int_attribute(kPartsAttribute, 0);
   }
   return read;

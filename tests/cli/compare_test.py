@@ -45,6 +45,10 @@ class FigureTest(CompareTest):
             self.assertRegex(text, rf"(?m)^{name} +[\d.e-]+$")
         self.assertEqual(text.count("  pixel "), 2)
 
+    def test_pixels_that_do_not_differ_are_not_shown(self):
+        image = self.render_to("a.exr")
+        self.assertNotIn("  pixel ", self.compare(image, image))
+
     def test_equal_seeds_are_told(self):
         """What two images with the same random numbers err alike is in none of the figures."""
         image, same, other = (self.render_to(f"{i}.exr", "--seed", seed) for i, seed in enumerate((1, 1, 2)))
@@ -127,6 +131,14 @@ class RefusalTest(CompareTest):
         self.assert_refused(["compare", ".", "a.exr"], ".: error: this is a folder\n  hint: name an image file")
         run = self.lemma("compare", "notes.txt", "a.exr")
         self.assertRegex(run.stderr, r"\Anotes\.txt: error: no image can be read from it: .*\n  hint: name an image as ")
+
+    def test_negative_variances(self):
+        layers = "R,G,B,variance.R,variance.G,variance.B"
+        subprocess.run(["oiiotool", "--create", "4x4", "6", "--chnames", layers, "--addc", "0,0,0,1,-1,1",
+                        "-o", self.folder / "a.exr"], check=True)
+        self.assert_refused(["compare", "a.exr", "a.exr"],
+                            "a.exr: error: the layer variance is negative at 0,0\n"
+                            "  hint: expected the variance of each value's mean, as lemma render writes it")
 
     def test_other_channels(self):
         for names in ("Y", "R,G,B,variance.R"):

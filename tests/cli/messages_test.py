@@ -7,7 +7,7 @@ import pty
 import re
 import unittest
 
-from lemma import SCENES, LemmaTest
+from lemma import LemmaTest
 
 SCENE_LINE = r"cornell-box\.xml \+ cornell-box\.obj \+ cornell-box\.mtl: 32 triangles .*, camera \d+x\d+\n"
 PROGRESS_LINE = r" *(\d+) %  .*\n"
@@ -57,7 +57,6 @@ class VarianceTest(LemmaTest):
     def test_throughput_has_no_such_limit(self):
         self.assertNotIn("warning", self.render_with_albedo(0.9))
 
-
     def test_two_samples_a_vertex_vary_more(self):
         self.assertIn("warning: --rr fixed: surfaces reflect up to 0.725 of the light, whose square times the 1.5 of "
                       "mis-report's two samples is not below 0.6: the variance can be infinite",
@@ -70,7 +69,8 @@ class UnusedOptionsTest(LemmaTest):
     def test_are_warned_of(self):
         for unused, beside in (("--lights power", "--integrator brdf"), ("--mis balance", "--integrator brdf"),
                                ("--mis balance", "--integrator direct"), ("--mis balance", "--technique light"),
-                               ("--lights power", "--technique brdf"), ("--phong-norm n+2", "--brdf blinn-phong"),
+                               ("--lights power", "--technique brdf"), ("--technique light", "--integrator brdf"),
+                               ("--technique brdf", "--integrator mis-report"), ("--phong-norm n+2", "--brdf blinn-phong"),
                                ("--brdf-sampling p6", "--brdf blinn-phong"),
                                ("--replicates 4", "--sampler independent")):
             with self.subTest(unused=unused, beside=beside):
@@ -87,12 +87,6 @@ class UnusedOptionsTest(LemmaTest):
                         "--technique light --lights power", "--brdf-sampling p6 --phong-norm n+2", "--replicates 4"):
             with self.subTest(options):
                 self.assertNotIn("warning", self.render(*options.split()).stderr)
-
-    def test_a_technique_is_one_of_mis(self):
-        for integrator in ("brdf", "direct", "mis-report"):
-            self.assert_refused(["render", SCENES / "cornell-box", "--technique", "light", "--integrator", integrator],
-                                f"lemma: error: --technique light with --integrator {integrator}\n"
-                                "  hint: leave out --integrator: --technique chooses among the samples of mis")
 
 
 class SummaryTest(LemmaTest):

@@ -182,11 +182,19 @@ class StopTest(LemmaTest):
         stats = self.stats("--target-error", 0.01)
         self.assertLessEqual(stats["estimated_error"]["relmse"]["value"], 0.01)
         self.assertGreater(stats["spp"], 16)
+        self.assertTrue(stats["target_reached"])
         self.assert_same_as_with_spp(stats)
         self.assertEqual(self.stats("--target-error", 0.01)["spp"], stats["spp"], "it does not depend on the time")
 
     def test_target_error_is_not_looked_at_too_early(self):
         self.assertEqual(self.stats("--target-error", 1000)["spp"], 16)
+
+    def test_a_target_that_is_missed_is_told(self):
+        for target, spp in ((1e-9, 20), (1000, 8)):
+            run = self.render("--target-error", target, "--stats", "stats.json", spp=spp)
+            self.assertIn(" not reached: more samples or time are needed\n", run.stdout)
+            self.assertFalse(json.loads((self.folder / "stats.json").read_text())["target_reached"])
+        self.assertNotIn("target_reached", self.stats("--spp", 2))
 
     def test_time(self):
         stats = self.stats("--time", 0.5)
@@ -204,11 +212,24 @@ class StopTest(LemmaTest):
         self.assertEqual([point["spp"] for point in curve], [1, 2, 4, 8, 12])
         self.assertEqual(sorted(point["seconds"] for point in curve), [point["seconds"] for point in curve])
         self.assertGreater(curve[0]["relmse"], curve[-1]["relmse"])
+        self.assertTrue(all(abs(point["rmse"] ** 2 / point["mse"] - 1) < 1e-9 for point in curve))
+        self.assertEqual(stats["reference"], "reference.exr")
         self.assert_same_as_with_spp(stats)
         comparison = self.lemma("compare", "a.exr", "reference.exr", "-q", "--json", "compare.json")
         self.assertEqual(comparison.returncode, DONE, comparison.stderr)
         relmse = json.loads((self.folder / "compare.json").read_text())["relmse_without_noise"]
         self.assertAlmostEqual(curve[-1]["relmse"] / relmse, 1, 6)
+
+    def test_errors_below_the_noise_of_the_reference_are_none(self):
+        """The same image as a reference: all that differs from it is subtracted twice."""
+        self.render("-q", "-o", "reference.exr", spp=4)
+        run = self.render("--reference", "reference.exr", "--stats", "stats.json", "-o", "a.exr", spp=4)
+        self.assertRegex(run.stdout, r"against the reference, whose own noise is subtracted \(RMSE \S+, relMSE \S+\):\n")
+        self.assertRegex(run.stdout, r"\n +4 +[\d.]+ +below noise +below noise\n")
+        stats = json.loads((self.folder / "stats.json").read_text())
+        last = stats["error_curve"][-1]
+        self.assertEqual((last["mse"], last["relmse"], last["rmse"]),
+                         (-stats["reference_noise"]["mse"], -stats["reference_noise"]["relmse"], None))
 
     def test_reference_of_the_same_seed_is_warned_of(self):
         self.render("-q", "-o", "reference.exr", "--seed", 2, size="8x8", spp=2)
