@@ -194,7 +194,7 @@ TEST_P(BrdfChiSquare, SamplesFollowTheDensity) {
 /// Albedo of Blinn's lobe for ks = 1, in double, by the midpoint rule over the half vectors as they are
 /// drawn.
 double blinn_albedo_in_double(float n, const Vec3& direction) {
-  constexpr int rows = 300, columns = 300;
+  constexpr int rows = 1000, columns = 1000;
   const Vec3d wo = normalize(Vec3d(direction));
   const double sharpness = n, factor = (sharpness + 2) * (sharpness + 4) /
                                        (8 * std::numbers::pi * (std::exp2(-sharpness / 2) + sharpness));
@@ -212,7 +212,8 @@ double blinn_albedo_in_double(float n, const Vec3& direction) {
 }
 
 /// Where float32 directions blur the lobe, its mean is still right. False alarms: 1e-3 for the cases
-/// together; the rule with twice the points gives the same to 1e-4.
+/// together; beside them 3e-4 for the rule, whose albedos with four times the points an axis differ by 2.6e-4
+/// at most.
 TEST(BlinnLobe, MeanWeightAtGrazingAngles) {
   constexpr float exponents[] = {1e4f, 1e5f, 1e6f};
   constexpr double angles[] = {80, 89, 89.9, 89.99};
@@ -229,7 +230,7 @@ TEST(BlinnLobe, MeanWeightAtGrazingAngles) {
       }
       const test::Estimate e = test::estimate(weights);
       const double albedo = blinn_albedo_in_double(n, wo);
-      EXPECT_LT(std::abs(e.mean - albedo), limit * e.standard_error + 1e-4 * albedo)
+      EXPECT_LT(std::abs(e.mean - albedo), limit * e.standard_error + 3e-4 * albedo)
           << "n " << n << ", " << angle << " degrees: " << e.mean << ", expected " << albedo;
     }
   }
