@@ -7,15 +7,18 @@ import argparse
 import dataclasses
 import datetime
 import json
+import signal
 import sys
 from pathlib import Path
 
+import checks
 import measure
 import peers
 import plan
 from regression import baseline_of, compare_with_baseline
 from report import verdict_lines, write_report
-from runs import LEMMA, PROJECT, Jobs, Progress, commit, libraries, machine, program_digest, run
+from runs import LEMMA, PROJECT, Jobs, Progress, commit, libraries, machine, program_digest, refuse, run
+from scenes import read_scenes
 from summary import summarize
 
 
@@ -48,55 +51,68 @@ def effort_of(arguments):
     return dataclasses.replace(effort, **{name: value for name, value in told.items() if value is not None})
 
 
-def run_all(arguments, effort, configurations, jobs, threads):
-    """All renderings, in turns over the configurations, so that a slow hour of the machine slows all of them."""
-    references, renderings = {}, []
+def total_seconds(arguments, effort, runs):
+    """What all jobs take, roughly."""
+    each = effort.reference_seconds() + effort.parity_seconds() + runs * effort.seeds * effort.seconds
+    if arguments.peers:
+        each += effort.reference_seconds() * effort.peer_spp / effort.reference_spp
+    return len(arguments.scenes) * each + effort.traversal_seconds() + plan.HARD_SECONDS
+
+
+def run_all(arguments, effort, scenes, jobs, threads):
+    """References, then all renderings, in turns over the configurations, so that a slow hour of the machine slows all of them,
+    then the tables."""
+    configurations = plan.configurations(arguments.cross)
     others = [peers.NAME] if arguments.peers else []
-    for scene in arguments.scenes:
-        references[scene] = measure.reference(jobs, scene, effort)
-    count = len(configurations) + len(others)
-    progress = Progress(len(arguments.scenes) * count * effort.seeds * effort.seconds, jobs)
+    progress = Progress(total_seconds(arguments, effort, len(configurations) + len(others)), jobs)
+    references = {scene.name: measure.reference(jobs, scene, effort, progress) for scene in scenes}
+    renderings = []
     for seed in range(1, effort.seeds + 1):
-        for scene in arguments.scenes:
+        for scene in scenes:
+            image = references[scene.name]["image"]
             for configuration in configurations:
-                figures = measure.rendering(jobs, scene, configuration, seed, effort, references[scene]["image"])
-                renderings.append({"scene": scene, "configuration": configuration.name, "seed": seed,
+                figures = measure.rendering(jobs, scene, configuration, seed, effort, image)
+                renderings.append({"scene": scene.name, "configuration": configuration.name, "seed": seed,
                                    "options": dict(configuration.options), "figures": figures})
-                progress.done(f"{scene}: {configuration.name}, seed {seed}", effort.seconds)
+                progress.done(f"{scene.name}: {configuration.name}, seed {seed}", effort.seconds)
             for name in others:
-                figures = peers.rendering(jobs, scene, seed, effort, threads, references[scene]["image"])
-                renderings.append({"scene": scene, "configuration": name, "seed": seed, "peer": True, "figures": figures})
-                progress.done(f"{scene}: {name}, seed {seed}", effort.seconds)
-    return references, renderings
+                figures = peers.rendering(jobs, scene, seed, effort, threads, image)
+                renderings.append({"scene": scene.name, "configuration": name, "seed": seed, "peer": True, "figures": figures})
+                progress.done(f"{scene.name}: {name}, seed {seed}", effort.seconds)
+
+    def told(what, seconds, value):
+        progress.done(what, seconds)
+        return value
+
+    parity = [told(f"{s.name}: parity", effort.parity_seconds(), measure.parity(jobs, s, effort)) for s in scenes]
+    agreement = [told(f"{s.name}: agreement of {peers.NAME}", effort.reference_seconds() * effort.peer_spp / effort.reference_spp,
+                      peers.agreement(jobs, s, effort, threads, references[s.name])) for s in scenes] if arguments.peers else []
+    traversal = told("traversal", effort.traversal_seconds(),
+                     measure.traversal(jobs, effort, PROJECT / "build/release/bench/traversal"))
+    hard_cases = told("hard cases", plan.HARD_SECONDS, measure.hard_cases(jobs, PROJECT / "build/release/tests/hard_tests"))
+    return {"references": references, "renderings": renderings, "parity": parity, "peers": agreement, "traversal": traversal,
+            "hard_cases": hard_cases}
 
 
-def main():
+def bench():
     arguments = parse_arguments()
     effort = effort_of(arguments)
-    # Read before hours of measuring: a wrong name is told at once.
-    baseline = json.loads(arguments.baseline.read_text()) if arguments.baseline else None
-    configurations = plan.configurations(arguments.cross)
+    # All that can be wrong is found before hours of measuring.
+    checks.check_effort(effort)
+    baseline = checks.read_baseline(arguments.baseline, effort) if arguments.baseline else None
+    if arguments.save_baseline:
+        checks.check_target(arguments.save_baseline, "--save-baseline")
+    scenes = read_scenes(arguments.scenes)
+    out = arguments.out.resolve()
+    checks.make_folder(out, "--out")
     environment = {"machine": machine(), "version": run([LEMMA, "--version"]).strip(), "libraries": libraries(),
                    "commit": commit(), "program": program_digest(), "date": datetime.date.today().isoformat()}
-    threads = environment["machine"]["threads"]
-    jobs = Jobs(arguments.out / "jobs", [environment["machine"], environment["program"]])
-    references, renderings = run_all(arguments, effort, configurations, jobs, threads)
-    results = {
-        **environment,
-        "effort": dataclasses.asdict(effort),
-        "relative_to": arguments.relative_to,
-        "references": references,
-        "renderings": renderings,
-        "parity": [measure.parity(jobs, scene, effort) for scene in arguments.scenes],
-        "traversal": measure.traversal(jobs, effort, PROJECT / "build/release/bench/traversal"),
-        "hard_cases": measure.hard_cases(jobs, PROJECT / "build/release/tests/hard_tests"),
-        "peers": [peers.agreement(jobs, scene, effort, threads, references[scene]) for scene in arguments.scenes]
-        if arguments.peers else [],
-    }
-    results["summary"] = summarize(renderings, effort, arguments.relative_to)
-    (arguments.out / "results.json").write_text(json.dumps(results))
-    report = write_report(results, arguments.out)
-    print(f"report: {report}")
+    jobs = Jobs(out / "jobs", [environment["machine"], environment["program"]])
+    results = {**environment, "effort": dataclasses.asdict(effort), "relative_to": arguments.relative_to,
+               **run_all(arguments, effort, scenes, jobs, environment["machine"]["threads"])}
+    results["summary"] = summarize(results["renderings"], effort, arguments.relative_to)
+    (out / "results.json").write_text(json.dumps(results))
+    print(f"report: {write_report(results, out)}")
     for line in verdict_lines(results["summary"]):
         print(line)
     try:
@@ -106,6 +122,20 @@ def main():
             sys.exit(compare_with_baseline(baseline_of(results), baseline))
     except ValueError as error:
         sys.exit(f"bench: error: {error}")
+
+
+def main():
+    try:
+        bench()
+    except KeyboardInterrupt:
+        sys.exit(interrupted())
+    except OSError as error:
+        refuse(f"{error.filename}: {error.strerror}", "is the disk full, or was a file taken away?")
+
+
+def interrupted():
+    print("bench: interrupted; the same command goes on where it was", file=sys.stderr)
+    return 128 + signal.SIGINT
 
 
 if __name__ == "__main__":

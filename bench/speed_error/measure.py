@@ -4,39 +4,33 @@ import base64
 import hashlib
 import json
 import re
-import sys
 from pathlib import Path
 
-from plan import REFERENCE, REFERENCE_REPLICATES, REFERENCE_SEED, SCENES
-from runs import LEMMA, PROJECT, run
+from plan import REFERENCE, REFERENCE_REPLICATES, REFERENCE_SEED
+from runs import LEMMA, run
 
 COMPARISON_FAILED = 3  # exit code of lemma
 PART_SPP = 4096  # samples a pixel of a reference that are rendered at once
 
 
-def scene_path(name):
-    """One of our own scenes by its name, or any other by its path."""
-    return PROJECT / "scenes" / name if name in SCENES else name
-
-
-def reference(jobs, scene, effort):
+def reference(jobs, scene, effort, progress):
     """Renders the reference once, in parts of their own seeds, so that little is lost when it is interrupted: its image and its
     own error."""
     sizes = part_sizes(effort.reference_spp)
     parts = []
     for index, spp in enumerate(sizes):
-        print(f"reference of {scene}: part {index + 1} of {len(sizes)}", file=sys.stderr, flush=True)
         parts.append(_reference_part(jobs, scene, effort, index, spp))
+        progress.done(f"{scene.name}: reference, part {index + 1} of {len(sizes)}", effort.reference_seconds() / len(sizes))
 
     def work(stem):
         image = Path(parts[0]["image"])
         if len(parts) > 1:
             image = stem.with_suffix(".exr")
             run(mean_command([part["image"] for part in parts], image))
-        return {"scene": str(scene), "image": str(image), "picture": parts[0]["picture"],
-                "stats": mean_stats([part["stats"] for part in parts])}
+        return {"image": str(image), "picture": parts[0]["picture"], "stats": mean_stats([part["stats"] for part in parts])}
 
-    return jobs.result(["reference", str(scene), effort.size, sizes, REFERENCE], work)
+    made = jobs.result(["reference", scene.digest, effort.size, sizes, REFERENCE], work)
+    return {"scene": scene.name, **made}
 
 
 def part_sizes(spp):
@@ -49,11 +43,11 @@ def _reference_part(jobs, scene, effort, index, spp):
 
     def work(stem):
         image, png, stats = (stem.with_suffix(ending) for ending in (".exr", ".png", ".stats"))
-        run([LEMMA, "render", scene_path(scene), "-q", "--size", effort.size, "--spp", spp, *REFERENCE, "--seed", seed,
+        run([LEMMA, "render", scene.path, "-q", "--size", effort.size, "--spp", spp, *REFERENCE, "--seed", seed,
              "-o", image, "-o", png, "--stats", stats])
         return {"image": str(image), "picture": data_url(png), "stats": json.loads(stats.read_text())}
 
-    return jobs.result(["part", str(scene), effort.size, spp, seed, REFERENCE], work)
+    return jobs.result(["part", scene.digest, effort.size, spp, seed, REFERENCE], work)
 
 
 def mean_command(images, out):
@@ -79,7 +73,7 @@ def data_url(png):
 
 
 def rendering_key(scene, configuration, seed, effort):
-    return ["render", str(scene), configuration.options, seed, effort.size, effort.seconds,
+    return ["render", scene.digest, configuration.options, seed, effort.size, effort.seconds,
             effort.reference_spp, REFERENCE]
 
 
@@ -88,7 +82,7 @@ def rendering(jobs, scene, configuration, seed, effort, image):
 
     def work(stem):
         exr, png, stats = (stem.with_suffix(ending) for ending in (".exr", ".png", ".stats"))
-        run([LEMMA, "render", scene_path(scene), "-q", "--size", effort.size, "--time", effort.seconds, "--seed", seed,
+        run([LEMMA, "render", scene.path, "-q", "--size", effort.size, "--time", effort.seconds, "--seed", seed,
              "--reference", image, *configuration.arguments(), "-o", exr, "-o", png, "--stats", stats])
         figures = json.loads(stats.read_text())
         if seed == 1:
@@ -114,11 +108,12 @@ def parity(jobs, scene, effort):
 
     def work(stem):
         report = stem.with_suffix(".parity")
-        run([LEMMA, "parity", scene_path(scene), "-q", "--rays", effort.parity_rays, "--json", report],
+        run([LEMMA, "parity", scene.path, "-q", "--rays", effort.parity_rays, "--json", report],
             accepted=(0, COMPARISON_FAILED))
         return json.loads(report.read_text())
 
-    return jobs.result(["parity", str(scene), effort.parity_rays], work)
+    report = jobs.result(["parity", scene.digest, effort.parity_rays], work)
+    return {**report, "scene": scene.name}
 
 
 def traversal(jobs, effort, program):

@@ -20,7 +20,7 @@ def _identity():
 
 def _render(scene, size, seed, threads, stem, *end):
     """Figures of a rendering, whose images lie where they say."""
-    run([PYTHON, "-B", FOLDER / "mitsuba_render.py", measure.scene_path(scene), "--size", size, "--seed", seed,
+    run([PYTHON, "-B", FOLDER / "mitsuba_render.py", scene.path, "--size", size, "--seed", seed,
          "--threads", threads, "--out", stem, *end])
     return json.loads(stem.with_suffix(".json").read_text())
 
@@ -52,7 +52,7 @@ def rendering(jobs, scene, seed, effort, threads, image):
             file.unlink()
         return figures
 
-    return jobs.result(["peer", _identity(), str(scene), seed, effort.size, effort.seconds, threads,
+    return jobs.result(["peer", _identity(), scene.digest, seed, effort.size, effort.seconds, threads,
                         effort.reference_spp, measure.REFERENCE], work)
 
 
@@ -65,8 +65,9 @@ def agreement(jobs, scene, effort, threads, reference):
         compared = _compared(figures["points"][-1]["image"], reference["image"], stem, "--statistical")
         for file in stem.parent.glob(f"{stem.name}.*"):
             file.unlink()
-        return {"scene": str(scene), "peer": figures["peer"], "spp": effort.peer_spp, "statistical": compared["statistical"],
+        return {"peer": figures["peer"], "spp": effort.peer_spp, "statistical": compared["statistical"],
                 "relmse": compared["relmse_without_noise"], "reference_relmse": compared["reference_noise"]["relmse"]}
 
-    return jobs.result(["agreement", _identity(), str(scene), effort.size, effort.peer_spp, threads,
+    made = jobs.result(["agreement", _identity(), scene.digest, effort.size, effort.peer_spp, threads,
                         effort.reference_spp, measure.REFERENCE], work)
+    return {"scene": scene.name, **made}

@@ -67,6 +67,22 @@ class Effort:
     peer_spp: int  # samples a pixel of other renderers' converged images
 
 
+    def pixels(self):
+        width, height = self.size.split("x")
+        return int(width) * int(height)
+
+    def reference_seconds(self):
+        """Rough; as the two below, for the time that is left alone, which follows the pace of what was done."""
+        return self.pixels() * self.reference_spp / 1e6
+
+    def parity_seconds(self):
+        return self.parity_rays / 2e4
+
+    def traversal_seconds(self):
+        return 1.5 * len(self.traversal_cases) * self.traversal_rounds
+
+
+HARD_SECONDS = 40
 QUICK = Effort("128x72", 0.5, 5, 2048, 20000, ("veach-mis", "interior"), 3, 1024)
 FULL = Effort("320x180", 60.0, 8, 16384, 1000000,
               ("veach-mis", "interior", "sphere-1M", "field-1M"), 7, 16384)

@@ -2,6 +2,7 @@
 
 import csv
 import html
+import itertools
 import json
 from pathlib import Path
 
@@ -38,8 +39,14 @@ def figure(svg, caption):
     return f"<figure>{svg}<figcaption>{caption}</figcaption></figure>"
 
 
-def file_name(text):
-    return "".join(c if c.isalnum() else "-" for c in Path(text).name)
+def file_names(scenes):
+    """For each scene a name for files and anchors, that no other has."""
+    names = {}
+    for scene in scenes:
+        plain = "".join(c if c.isalnum() else "-" for c in scene)
+        candidates = itertools.chain([plain], (f"{plain}-{n}" for n in itertools.count(2)))
+        names[scene] = next(name for name in candidates if name not in names.values())
+    return names
 
 
 VERDICTS = {"best": "the default is the most efficient", "within 10 %": "the default is within 10 % of the most efficient",
@@ -56,7 +63,7 @@ def verdict_text(configurations):
 def verdict_lines(summary):
     """The verdicts of all scenes."""
     for scene, configurations in summary.items():
-        yield f"{Path(scene).name}: {verdict_text(configurations)}"
+        yield f"{scene}: {verdict_text(configurations)}"
 
 
 def errors_table(configurations):
@@ -85,14 +92,14 @@ def efficiency_table(configurations, seconds, relative_to):
     return table(head, rows)
 
 
-def viewer(scene, configurations, reference):
+def viewer(scene, name, configurations, reference):
     views = {"reference": {"picture": reference["picture"]}}
     views.update({name: f["views"] for name, f in configurations.items() if f["views"]})
     names = list(views)
     options = ["".join(f"<option{' selected' if n == chosen else ''}>{escape(n)}</option>" for n in names)
                for chosen in (names[min(1, len(names) - 1)], names[0])]
     data = json.dumps({n: {k: v[k] for k in ("picture", "difference") if k in v} for n, v in views.items()})
-    return f"""<div class="viewer" id="viewer-{escape(file_name(scene))}">
+    return f"""<div class="viewer" id="viewer-{escape(name)}">
 <div class="controls"><label>left <select>{options[0]}</select></label><label>right <select>{options[1]}</select></label>
 <label>slider <input type="range" min="0" max="100" value="50"></label>
 <label><input type="checkbox"> signed error</label></div>
@@ -101,9 +108,9 @@ def viewer(scene, configurations, reference):
 <script type="application/json">{data.replace('</', '<' + chr(92) + '/')}</script></div>"""
 
 
-def scene_section(scene, results, folder):
+def scene_section(scene, name, results, folder):
     configurations, reference = results["summary"][scene], results["references"][scene]
-    stats, name = reference["stats"], file_name(scene)
+    stats = reference["stats"]
     noise = stats["estimated_error"]["relmse"]
     seconds = results["effort"]["seconds"]
     parts = [f'<h2 id="{escape(name)}">{escape(scene)}</h2>',
@@ -122,7 +129,7 @@ def scene_section(scene, results, folder):
               "are far from normal, and its alarms more than stated. Slope: of the root of "
               "relMSE over samples; independent samples have -0.5. A run that ends up to a fifth before a time counts there with its "
               "last error. * not reached by all runs: goes on with the error as one over the time.</p>",
-              f"<h3>Images after {seconds:g} s</h3>", viewer(scene, configurations, reference)]
+              f"<h3>Images after {seconds:g} s</h3>", viewer(scene, name, configurations, reference)]
     return "\n".join(parts)
 
 
@@ -139,7 +146,7 @@ def accelerator_section(results, folder):
         for accel in report["accelerators"]:
             t = accel["total"]
             faults = t["wrong"] + t["missed"] + t["wrong_occlusion"]
-            rows.append([Path(report["scene"]).name, accel["accel"], t["rays"], t["decided"], t["wrong"], t["missed"],
+            rows.append([report["scene"], accel["accel"], t["rays"], t["decided"], t["wrong"], t["missed"],
                          t["wrong_occlusion"], ("exact", "good") if faults == 0 else (f"{faults} faults", "bad")])
     parts += ["<h3>Parity: answers against exact arithmetic</h3>",
               table(["scene", "accelerator", "rays", "decided", "wrong", "missed", "occlusion", "verdict"], rows)]
@@ -158,7 +165,7 @@ def peer_section(results):
     for p in results["peers"]:
         test = p["statistical"]
         z = max(test["global_z"], key=abs)
-        rows.append([Path(p["scene"]).name, p["peer"], p["spp"], f"{max(0, p['relmse']):.2g}", f"{z:+.2f} of {test['global_limit']:.2f}",
+        rows.append([p["scene"], p["peer"], p["spp"], f"{max(0, p['relmse']):.2g}", f"{z:+.2f} of {test['global_limit']:.2f}",
                      f"{test['worst_block']['z']:+.2f} of {test['block_limit']:.2f}", f"{test['block_alarms']} of {test['block_tests']}",
                      ("different", "bad") if test["different"] else ("agrees", "good")])
     head = ["scene", "renderer", "spp", "relMSE", "largest z of the image", "largest z of a block", "block alarms", "verdict"]
@@ -182,9 +189,10 @@ def write_report(results, folder):
     plot_folder = folder / "plots"
     plot_folder.mkdir(parents=True, exist_ok=True)
     machine, effort = results["machine"], results["effort"]
-    sections = [scene_section(scene, results, plot_folder) for scene in results["summary"]]
+    names = file_names(results["summary"])
+    sections = [scene_section(scene, name, results, plot_folder) for scene, name in names.items()]
     accelerators = accelerator_section(results, plot_folder) + peer_section(results)
-    links = "".join(f'<a href="#{escape(file_name(s))}">{escape(s)}</a>' for s in results["summary"])
+    links = "".join(f'<a href="#{escape(name)}">{escape(scene)}</a>' for scene, name in names.items())
     page = f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <link rel="icon" href="data:,"><title>Lemma: speed against error</title>

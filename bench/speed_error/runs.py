@@ -14,6 +14,11 @@ PROJECT = Path(__file__).resolve().parents[2]
 LEMMA = Path(os.environ.get("LEMMA", PROJECT / "build/release/lemma"))
 
 
+def refuse(message, hint):
+    """Ends the benchmark with one message."""
+    sys.exit(f"bench: error: {message}\n  hint: {hint}")
+
+
 def run(command, accepted=(0,)):
     """What a command prints. Stops with its own words if it fails."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
@@ -70,7 +75,7 @@ class Progress:
     def _line(self, what):
         left = max(0, self.total - self.expected)
         pace = self.spent / self.expected_of_made if self.expected_of_made else 1
-        part = self.expected / self.total if self.total else 1
+        part = min(1, self.expected / self.total)
         return f"{100 * part:3.0f} %  {self.spent:.0f} s, {left * pace:.0f} s to go  {what}"
 
 
