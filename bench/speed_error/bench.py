@@ -110,7 +110,7 @@ def bench():
     jobs = Jobs(out / "jobs", [environment["machine"], environment["program"]])
     results = {**environment, "effort": dataclasses.asdict(effort), "relative_to": arguments.relative_to,
                **run_all(arguments, effort, scenes, jobs, environment["machine"]["threads"])}
-    results["summary"] = summarize(results["renderings"], effort, arguments.relative_to)
+    results["summary"] = summarize(results["renderings"], results["references"], effort, arguments.relative_to)
     (out / "results.json").write_text(json.dumps(results))
     print(f"report: {write_report(results, out)}")
     for line in verdict_lines(results["summary"]):

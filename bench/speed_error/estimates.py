@@ -65,6 +65,12 @@ def ratio(values, baseline):
     return Estimate(math.exp(centre), math.exp(centre - half), math.exp(centre + half))
 
 
+def paired_ratio(values, baseline):
+    """Geometric mean of the ratios of runs that were made one after the other: what slowed both, as other work on the machine
+    did, is no part of their spread."""
+    return geometric_mean(numpy.asarray(values, float) / numpy.asarray(baseline, float))
+
+
 def slope(curves):
     """Slope of log(error) over log(work), fitted to each run by least squares, then averaged: the points of one run hold the
     same samples and depend on each other, runs do not."""

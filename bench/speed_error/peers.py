@@ -35,7 +35,7 @@ def _error_point(point, reference, stem):
     """A point as `lemma render --reference` has it, by the same program's figures."""
     errors = _compared(point["image"], reference, stem)
     return {**{key: point[key] for key in ("spp", "seconds", "cpu_seconds")},
-            "rmse": max(0.0, errors["mse_without_noise"]) ** 0.5, "relmse": max(0.0, errors["relmse_without_noise"])}
+            "rmse": max(0.0, errors["mse_without_noise"]) ** 0.5, "relmse": errors["relmse_without_noise"]}
 
 
 def rendering(jobs, scene, seed, effort, threads, image):

@@ -71,7 +71,7 @@ def error_plot(configurations, key, unit, identity):
 
 def efficiency_plot(configurations, relative_to):
     """Efficiency as a ratio to that of one of them, with intervals."""
-    names = list(configurations)
+    names = [name for name, f in configurations.items() if f["efficiency_ratio"]]
     ratios = [configurations[name]["efficiency_ratio"] for name in names]
     figure, axes = pyplot.subplots(figsize=(7.2, 0.6 + 0.28 * len(names)))
     values = [r["value"] for r in ratios]
@@ -81,6 +81,8 @@ def efficiency_plot(configurations, relative_to):
     axes.set_yticks(range(len(names)), names)
     axes.invert_yaxis()
     axes.axvline(1, color="#444444", linewidth=0.8)
+    if not names:
+        return figure
     axes.set(xscale="log", xlim=(min(values) / 3, max(values) * 3),  # by the means: intervals of few seeds reach far
              xlabel=f"efficiency 1 / (relMSE x seconds), ratio to {relative_to}; bars: 95 %")
     return figure

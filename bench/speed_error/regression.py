@@ -28,7 +28,7 @@ def baseline_of(results):
         raise ValueError("a baseline needs the traversal table: build the program traversal")
     figures = {
         kept: {scene: {name: {end: f[key][end] and f[key][end] / rate for end in ("value", "low", "high")}
-                       for name, f in configurations.items() if not f["peer"]}
+                       for name, f in configurations.items() if not f["peer"] and f[key]}
                for scene, configurations in results["summary"].items()}
         for kept, key in FIGURES.items()}
     return {**{key: results[key] for key in ("machine", "version", "commit", "date")},

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 import plots
-from summary import TARGET, verdict
+from summary import BUSY, NOISE_SHARE, TARGET, measured, verdict
 
 HERE = Path(__file__).resolve().parent
 
@@ -56,6 +56,8 @@ VERDICTS = {"best": "the default is the most efficient", "within 10 %": "the def
 def verdict_text(configurations):
     """Whether the default is as good as the best configuration."""
     found = verdict(configurations)
+    if not found:
+        return "undecided: the reference has too few samples to measure the default's error"
     best = "" if found["verdict"] == "best" else f": {found['best']} has {interval(found['advantage'])} times its efficiency"
     return f"{VERDICTS[found['verdict']]}{best}, by CPU time"
 
@@ -73,7 +75,7 @@ def errors_table(configurations):
             *([f"relMSE at {spp} spp"] if spp else []), f"s to relMSE {TARGET:g}"]
     rows = []
     for name, f in configurations.items():
-        target = interval(f["to_target"]) + ("" if f["to_target"]["reached"] else " *")
+        target = interval(f["to_target"]) + (" *" if f["to_target"] and not f["to_target"]["reached"] else "")
         rows.append([name, f"{f['samples_per_second']:.3g}", interval(f["slope"]), *(interval(f["at"][t]) for t in times),
                      *([interval(f["at_spp"])] if spp else []), target])
     return table(head, rows)
@@ -108,6 +110,20 @@ def viewer(scene, name, configurations, reference):
 <script type="application/json">{data.replace('</', '<' + chr(92) + '/')}</script></div>"""
 
 
+def warnings(configurations):
+    """What makes a scene's figures doubtful."""
+    left_out = sum(f["unmeasured"] for f in configurations.values())
+    if left_out:
+        yield (f"The reference has too few samples: {left_out} points are left out, since their squared error is not above "
+               f"{NOISE_SHARE:g} of the reference's own. Raise --reference-spp.")
+    uneven = {name: f["sample_spread"] for name, f in configurations.items() if f["sample_spread"] > BUSY}
+    if uneven:
+        name = max(uneven, key=uneven.get)
+        yield (f"The machine was busy: samples in the same time differ by more than {BUSY:g} times between seeds in {len(uneven)} of "
+               f"{len(configurations)} configurations, most for {name}, {uneven[name]:.2g} times. Ratios are paired by seed, which "
+               "removes what slowed a whole turn; errors at times are not.")
+
+
 def scene_section(scene, name, results, folder):
     configurations, reference = results["summary"][scene], results["references"][scene]
     stats = reference["stats"]
@@ -116,7 +132,8 @@ def scene_section(scene, name, results, folder):
     parts = [f'<h2 id="{escape(name)}">{escape(scene)}</h2>',
              f"<p>{escape(stats['model'])}; {stats['width']} x {stats['height']} pixels. Reference: {stats['spp']} samples a pixel, "
              f"{escape(stats['integrator'])} with lights {escape(stats['lights'])}, seed {stats['seed']}; its own relMSE is "
-             f"{interval(noise)}, which is subtracted from all errors.</p>"]
+             f"{interval(noise)}, which is subtracted from all errors.</p>",
+             *(f'<p class="warning">{escape(text)}</p>' for text in warnings(configurations))]
     for key, unit in (("seconds", "seconds of rendering"), ("spp", "samples a pixel")):
         svg = plots.save(plots.error_plot(configurations, key, unit, f"{name}-{key}"), folder, f"{name}-{key}")
         parts.append(figure(svg, f"Error against {unit}. Bands: 95 % over {results['effort']['seeds']} seeds."))
@@ -177,11 +194,12 @@ def peer_section(results):
 def write_csv(results, path):
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(["scene", "configuration", "seed", "spp", "seconds", "cpu_seconds", "rmse", "relmse"])
+        writer.writerow(["scene", "configuration", "seed", "spp", "seconds", "cpu_seconds", "rmse", "relmse", "measured"])
         for r in results["renderings"]:
+            noise = results["references"][r["scene"]]["stats"]["estimated_error"]["relmse"]["value"]
             for p in r["figures"]["error_curve"]:
                 writer.writerow([r["scene"], r["configuration"], r["seed"], p["spp"], p["seconds"], p["cpu_seconds"], p["rmse"],
-                                 p["relmse"]])
+                                 p["relmse"], int(measured(p, noise))])
 
 
 def write_report(results, folder):

@@ -20,6 +20,7 @@ import regression
 import summary
 
 TRIALS = 4000
+REFERENCES = {"s": {"stats": {"estimated_error": {"relmse": {"value": 1e-4}}}}}
 
 
 def coverage_bounds(rate):
@@ -56,6 +57,17 @@ class CoverageTest(unittest.TestCase):
                 held += e.low <= 3 <= e.high
             self.assertGreater(held / TRIALS, 0.93)
             self.assertLess(held / TRIALS, 0.99)
+
+    def test_paired_ratio(self):
+        """At its rate whatever the machine's load is, which both runs of a pair share and which would widen Welch's interval."""
+        def estimate_of(random):
+            load = random.normal(0, 1, 5)
+            values, baseline = (numpy.exp(random.normal(0, 0.1, 5) + load) for _ in range(2))
+            return estimates.paired_ratio(3 * values, baseline)
+
+        self.assert_covers(3, estimate_of)
+        e = estimate_of(numpy.random.default_rng(1))
+        self.assertLess(e.high / e.low, 2)
 
     def test_slope(self):
         work = 2.0 ** numpy.arange(2, 9)
@@ -108,10 +120,10 @@ class SummaryTest(unittest.TestCase):
         effort = type("Effort", (), {"seconds": 2.0})
         runs = [self.rendering(name, seed, relmse, 2.0) for seed in (1, 2)
                 for name, relmse in (("default", 0.02), ("twice", 0.01))]
-        figures = summary.summarize(runs, effort, "default")["s"]
+        figures = summary.summarize(runs, REFERENCES, effort, "default")["s"]
         self.assertAlmostEqual(figures["default"]["efficiency"]["value"], 25)
         self.assertAlmostEqual(figures["twice"]["efficiency_ratio"]["value"], 2)
-        relative = summary.summarize(runs, effort, "twice")["s"]
+        relative = summary.summarize(runs, REFERENCES, effort, "twice")["s"]
         self.assertAlmostEqual(relative["default"]["efficiency_ratio"]["value"], 0.5)
         self.assertAlmostEqual(relative["default"]["cpu_efficiency_ratio"]["value"], 0.5)
         self.assertEqual(summary.verdict(relative)["best"], "twice")  # whatever ratios are to
@@ -128,9 +140,41 @@ class SummaryTest(unittest.TestCase):
     def test_errors_at_equal_samples(self):
         runs = [self.rendering(name, seed, relmse, 2.0) for seed in (1, 2) for name, relmse in (("default", 0.02), ("twice", 0.01))]
         runs[-1]["figures"]["error_curve"].pop()  # one run that ended before 8 samples
-        figures = summary.summarize(runs, type("Effort", (), {"seconds": 2.0}), "default")["s"]
+        figures = summary.summarize(runs, REFERENCES, type("Effort", (), {"seconds": 2.0}), "default")["s"]
         self.assertEqual([figures[name]["at_spp"]["spp"] for name in ("default", "twice")], [4, 4])
         self.assertAlmostEqual(figures["default"]["at_spp"]["value"] / figures["twice"]["at_spp"]["value"], 2)
+
+
+class UnmeasuredTest(unittest.TestCase):
+    """Points whose error the reference's own hides: below half of its squared error, or clamped to 0."""
+
+    def figures(self, hidden):
+        runs = [SummaryTest.rendering(name, seed, relmse, 2.0) for seed in (1, 2) for name, relmse in (("default", 0.02), ("twice", 0.01))]
+        runs[1]["figures"]["error_curve"][-1]["relmse"] = hidden
+        runs[3]["figures"]["error_curve"][-1]["relmse"] = hidden
+        return summary.summarize(runs, REFERENCES, type("Effort", (), {"seconds": 2.0}), "default")["s"]["twice"]
+
+    def test_they_are_left_out_everywhere(self):
+        for hidden in (0, -1e-3, 0.49e-4):
+            figures = self.figures(hidden)
+            self.assertEqual(figures["unmeasured"], 2)
+            self.assertEqual([p["spp"] for p in figures["curve"]], [1, 2, 4])
+            self.assertAlmostEqual(figures["efficiency_ratio"]["value"], 2)  # by the point before: 1 s with 0.02
+            self.assertAlmostEqual(figures["to_target"]["value"], 2)
+            self.assertFalse(figures["to_target"]["reached"])
+        self.assertEqual(self.figures(0.51e-4)["unmeasured"], 0)
+
+    def test_without_any_point(self):
+        runs = [SummaryTest.rendering("default", seed, 1e-6, 2.0) for seed in (1, 2)]
+        figures = summary.summarize(runs, REFERENCES, type("Effort", (), {"seconds": 2.0}), "default")["s"]
+        self.assertEqual([figures["default"][key] for key in ("efficiency", "slope", "to_target", "curve")], [None, None, None, []])
+        self.assertIsNone(summary.verdict(figures))
+
+    def test_a_busy_machine(self):
+        runs = [SummaryTest.rendering("default", seed, 0.02, 2.0) for seed in (1, 2)]
+        runs[0]["figures"]["error_curve"].pop()
+        figures = summary.summarize(runs, REFERENCES, type("Effort", (), {"seconds": 2.0}), "default")["s"]
+        self.assertEqual(figures["default"]["sample_spread"], 2)
 
 
 class VerdictTest(unittest.TestCase):

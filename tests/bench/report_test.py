@@ -56,12 +56,13 @@ def made_up_results(scenes=("veach-mis", "a <b> & c")):
              "estimated_error": {"relmse": interval}}
     total = {"rays": 10, "decided": 9, "wrong": 0, "missed": 1, "wrong_occlusion": 0}
     rays = {"grid_rays_per_s": 2e6, "embree_rays_per_s": 1e6, "ratio": 2}
+    references = {scene: {"picture": picture(0.5), "stats": stats} for scene in scenes}
     return {
         "machine": {"processor": "P", "threads": 2, "memory_gb": 4, "system": "S"}, "version": "lemma 0", "commit": "c", "libraries": ["libembree9.so"],
         "date": "2026-01-02",
         "relative_to": plan.DEFAULT, "effort": {"seconds": 1.6, "seeds": 3, "size": "16x9"},
-        "references": {scene: {"picture": picture(0.5), "stats": stats} for scene in scenes},
-        "renderings": renderings, "summary": summarize(renderings, effort, plan.DEFAULT),
+        "references": references,
+        "renderings": renderings, "summary": summarize(renderings, references, effort, plan.DEFAULT),
         "parity": [{"scene": "veach-mis", "accelerators": [{"accel": "embree", "total": total}]}],
         "traversal": {"cases": [{"case": "teapot", "trace": {"primary": rays, "bounce": rays}}]},
         "hard_cases": [{"case": "edges", "backend": "grid", "expected": "a hit", "tried": 5, "faults": 0, "allowed": "0"}],
