@@ -3,9 +3,11 @@
 import io
 
 import matplotlib
+import numpy
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (the backend must be chosen before)
+from summary import FIRST_FITTED  # noqa: E402
 
 matplotlib.rcParams.update({
     "svg.fonttype": "none",  # text stays text
@@ -41,8 +43,17 @@ def _reference_slope(axes, work):
     low, high = axes.get_ylim()
     xs = (min(work), max(work))
     ys = (high * 0.7, high * 0.7 * xs[0] / xs[1])
-    axes.plot(xs, ys, color="#888888", linewidth=0.8, linestyle=(0, (1, 2)), label="slope of independent samples")
+    axes.plot(xs, ys, color="#888888", linewidth=0.8, linestyle=(0, (1, 2)), label="independent samples (-1)")
     axes.set_ylim(low, high)
+
+
+def fitted_slope(points, key):
+    """Of the drawn curve, in the plot's own unit: relMSE over work, from FIRST_FITTED samples a pixel; None with fewer than two."""
+    fitted = [(p[key], p["relmse"]["value"]) for p in points if p["spp"] >= FIRST_FITTED]
+    if len(fitted) < 2:
+        return None
+    work, error = zip(*fitted)
+    return float(numpy.polyfit(numpy.log(work), numpy.log(error), 1)[0])
 
 
 def error_plot(configurations, key, unit, identity):
@@ -56,8 +67,10 @@ def error_plot(configurations, key, unit, identity):
         xs = [p[key] for p in points]
         work += xs
         errors += [p["relmse"]["value"] for p in points]
-        axes.plot(xs, [p["relmse"]["value"] for p in points], marker="o", markersize=2.5, linewidth=1.3, label=name,
-                  gid=f"{identity}-curve-{index}", **style(index))
+        slope = fitted_slope(points, key)
+        axes.plot(xs, [p["relmse"]["value"] for p in points], marker="o", markersize=2.5,
+                  linewidth=2.6 if index == 0 else 1.3, zorder=4 if index == 0 else 2,  # the default on top
+                  label=name if slope is None else f"{name} ({slope:.2f})", gid=f"{identity}-curve-{index}", **style(index))
         if points[0]["relmse"]["low"] is not None:
             axes.fill_between(xs, [p["relmse"]["low"] for p in points], [p["relmse"]["high"] for p in points],
                               color=style(index)["color"], alpha=0.15, linewidth=0)
@@ -65,7 +78,8 @@ def error_plot(configurations, key, unit, identity):
     if work:
         axes.set_ylim(min(errors) / 2, max(errors) * 2)  # by the means: bands of few seeds reach far
         _reference_slope(axes, work)
-    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
+    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False, title="fitted slope in brackets",
+                title_fontsize=7)
     return figure
 
 
@@ -83,7 +97,12 @@ def efficiency_plot(configurations, relative_to):
     axes.axvline(1, color="#444444", linewidth=0.8)
     if not names:
         return figure
-    axes.set(xscale="log", xlim=(min(values) / 3, max(values) * 3),  # by the means: intervals of few seeds reach far
+    least, most = min(values) / 3, max(values) * 3
+    for row, r in enumerate(ratios):  # an arrow where an interval goes on beyond the plot
+        for end, edge, marker in ((r["low"], least, "<"), (r["high"], most, ">")):
+            if end is not None and not least <= end <= most:
+                axes.plot(edge, row, marker=marker, color="black", markersize=5, clip_on=False, gid=f"clipped-{row}")
+    axes.set(xscale="log", xlim=(least, most),  # by the means: intervals of few seeds reach far
              xlabel=f"efficiency 1 / (relMSE x seconds), ratio to {relative_to}; bars: 95 %")
     return figure
 

@@ -12,6 +12,12 @@ from summary import BUSY, NOISE_SHARE, TARGET, measured, verdict
 HERE = Path(__file__).resolve().parent
 
 
+# A white pixel: the picture of no difference.
+BLANK = ("data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='16' height='9'%3E"
+         "%3Crect width='16' height='9' fill='white'/%3E%3C/svg%3E")
+SCALE = "each up to the difference that 99 % of its pixels stay below"
+
+
 def escape(text):
     return html.escape(str(text))
 
@@ -25,13 +31,13 @@ def interval(estimate, digits=3):
     return text
 
 
-def table(head, rows):
+def table(head, rows, css=""):
     """Cells are texts, or (text, class)."""
     def cell(value):
         text, css = value if isinstance(value, tuple) else (value, None)
         return f"<td{f' class={css}' if css else ''}>{escape(text)}</td>"
 
-    return ('<div class="scroll"><table><thead><tr>' + "".join(f"<th>{escape(h)}</th>" for h in head) + "</tr></thead><tbody>"
+    return (f'<div class="scroll{" " + css if css else ""}"><table><thead><tr>' + "".join(f"<th>{escape(h)}</th>" for h in head) + "</tr></thead><tbody>"
             + "".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows) + "</tbody></table></div>")
 
 
@@ -69,7 +75,7 @@ def verdict_lines(summary):
 
 
 def errors_table(configurations):
-    times = [t for t in next(iter(configurations.values()))["at"] if any(f["at"][t] for f in configurations.values())]
+    times = list(next(iter(configurations.values()))["at"])
     spp = next((f["at_spp"]["spp"] for f in configurations.values() if f["at_spp"]), None)
     head = ["configuration", "samples/s", "slope of RMSE", *(f"relMSE at {t} s" for t in times),
             *([f"relMSE at {spp} spp"] if spp else []), f"s to relMSE {TARGET:g}"]
@@ -101,7 +107,7 @@ def viewer(scene, name, configurations, reference):
     options = ["".join(f"<option{' selected' if n == chosen else ''}>{escape(n)}</option>" for n in names)
                for chosen in (names[min(1, len(names) - 1)], names[0])]
     data = json.dumps({n: {k: v[k] for k in ("picture", "difference") if k in v} for n, v in views.items()})
-    return f"""<div class="viewer" id="viewer-{escape(name)}">
+    return f"""<div class="viewer" id="viewer-{escape(name)}" data-blank="{BLANK}" data-scale="{escape(SCALE)}">
 <div class="controls"><label>left <select>{options[0]}</select></label><label>right <select>{options[1]}</select></label>
 <label>slider <input type="range" min="0" max="100" value="50"></label>
 <label><input type="checkbox"> signed error</label></div>
@@ -145,7 +151,7 @@ def scene_section(scene, name, results, folder):
               "does not count. The mean against the reference: lemma compare --statistical on the first seed; with few samples a pixel values "
               "are far from normal, and its alarms more than stated. Slope: of the root of "
               "relMSE over samples; independent samples have -0.5. A run that ends up to a fifth before a time counts there with its "
-              "last error. * not reached by all runs: goes on with the error as one over the time.</p>",
+              "last error; - where a run did not last as long or has no measured point before. * not reached by all runs: goes on with the error as one over the time.</p>",
               f"<h3>Images after {seconds:g} s</h3>", viewer(scene, name, configurations, reference)]
     return "\n".join(parts)
 
@@ -157,7 +163,8 @@ def accelerator_section(results, folder):
         parts.append(figure(plots.save(plots.traversal_plot(cases), folder, "traversal"), "./run bench-traversal --ratios"))
         rows = [[c["case"], kind, f"{t['grid_rays_per_s']:.3g}", f"{t['embree_rays_per_s']:.3g}", f"{t['ratio']:.2f}"]
                 for c in cases for kind, t in c["trace"].items()]
-        parts.append(table(["case", "rays", "grid, rays/s", "Embree, rays/s", "grid / Embree"], rows))
+        parts += [table(["case", "rays", "grid, rays/s", "Embree, rays/s", "grid / Embree"], rows),
+                  '<p class="note">primary-batch: camera rays, 16 at a time, as the renderer hands them over; all others one by one.</p>']
     rows = []
     for report in results["parity"]:
         for accel in report["accelerators"]:
@@ -170,7 +177,9 @@ def accelerator_section(results, folder):
     if results["hard_cases"]:
         rows = [[h["case"], h["backend"], h["expected"], h["tried"],
                  (str(h["faults"]), "good" if h["faults"] == 0 else "bad"), h["allowed"]] for h in results["hard_cases"]]
-        parts += ["<h3>Hard cases</h3>", table(["case", "accelerator", "expected", "tried", "faults", "allowed"], rows)]
+        parts += ["<h3>Hard cases</h3>", table(["case", "accelerator", "expected", "tried", "faults", "allowed"], rows, "hard"),
+                  '<p class="note">Allowed: 0, or "shown" where an accelerator is not held to the case: what it does is told, and is no '
+                  "failure.</p>"]
     return "\n".join(parts)
 
 

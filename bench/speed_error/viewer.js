@@ -4,6 +4,7 @@ for (const viewer of document.querySelectorAll(".viewer")) {
   const views = JSON.parse(viewer.querySelector("script").textContent);
   const [first, second] = viewer.querySelectorAll("select");
   const [under, over] = viewer.querySelectorAll("img");
+  const blank = viewer.dataset.blank; // the reference differs nowhere from itself
   const [slider] = viewer.querySelectorAll("input[type=range]");
   const [errors] = viewer.querySelectorAll("input[type=checkbox]");
   const caption = viewer.querySelector(".caption");
@@ -11,14 +12,14 @@ for (const viewer of document.querySelectorAll(".viewer")) {
 
   const source = (select) => {
     const view = views[select.value];
-    return errors.checked && view.difference ? view.difference : view.picture;
+    return errors.checked ? view.difference || blank : view.picture;
   };
   const show = () => {
     under.src = source(second);
     over.src = source(first);
     over.style.clipPath = `inset(0 ${100 - slider.value}% 0 0)`;
     const name = slider.value >= 100 ? first.value : slider.value <= 0 ? second.value : `${first.value} | ${second.value}`;
-    caption.textContent = name + (errors.checked ? ": too dark is blue, too bright is red" : "");
+    caption.textContent = name + (errors.checked ? `: too dark is blue, too bright is red, ${viewer.dataset.scale}` : "");
   };
   const flip = () => {
     slider.value = slider.value >= 50 ? 0 : 100;
@@ -35,7 +36,7 @@ for (const viewer of document.querySelectorAll(".viewer")) {
       ArrowLeft: () => choose(first, -1), ArrowRight: () => choose(first, 1),
       ArrowUp: () => choose(second, -1), ArrowDown: () => choose(second, 1),
     };
-    const action = actions[event.key];
+    const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action) return;
     event.preventDefault();
     action();

@@ -138,8 +138,9 @@ class ReportTest(unittest.TestCase):
         stage.send_keys(Keys.ENTER)
         stage.send_keys(Keys.ARROW_RIGHT)
         self.assertEqual(self.shown(viewer)[0], CONFIGURATIONS[1])
-        stage.send_keys(Keys.ARROW_LEFT, "e")
-        self.assertEqual(self.shown(viewer), ("default: too dark is blue, too bright is red", under, picture(1)))
+        stage.send_keys(Keys.ARROW_LEFT, "E")  # as with the shift key
+        told = f"default: too dark is blue, too bright is red, {report.SCALE}"
+        self.assertEqual(self.shown(viewer), (told, report.BLANK, picture(1)))  # nothing where the reference is
         self.assertNotEqual(self.shown(viewer)[2], over)
         self.assertEqual(self.browser.get_log("browser"), [])
 
@@ -158,6 +159,12 @@ class ReportTest(unittest.TestCase):
         self.browser.get(self.page.as_uri())
         self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), 390)
         self.assertGreater(self.find("figure svg")[0].size["width"], 500, "wide enough to read, in a box that scrolls")
+
+    def test_times_that_nobody_reached_have_a_dash(self):
+        head, row = (self.find("table")[1].find_elements("css selector", selector) for selector in ("th", "tbody tr:first-child td"))
+        cells = {h.text: d.text for h, d in zip(head, row)}
+        self.assertEqual(cells["relMSE at 60 s"], "-")
+        self.assertNotEqual(cells["relMSE at 1 s"], "-")
 
     def test_names_of_scenes_are_text(self):
         self.assertIn("a <b> & c", [heading.text for heading in self.find("h2")])
