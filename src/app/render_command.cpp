@@ -69,8 +69,8 @@ void warn_of_reference(const RenderOptions& options, const ReadImage& reference)
 constexpr std::uint64_t kBytesAPixel = 72;
 
 /// Refuses images that the machine cannot hold, before memory is taken for them.
-void require_memory(const CameraView& view, std::uint32_t replicates) {
-  const std::uint64_t needed = (kBytesAPixel + Film::bytes_a_pixel(replicates)) *
+void require_memory(const CameraView& view, std::uint32_t film_parts) {
+  const std::uint64_t needed = (kBytesAPixel + Film::bytes_a_pixel(film_parts)) *
                                static_cast<std::uint64_t>(view.width) *
                                static_cast<std::uint64_t>(view.height);
   if (needed <= machine_memory()) return;
@@ -83,7 +83,7 @@ void require_memory(const CameraView& view, std::uint32_t replicates) {
 LoadedScene load(const RenderOptions& options) {
   LoadedScene loaded = load_scene(options.scene.scene, options.scene.load);
   if (options.size) std::tie(loaded.scene.view.width, loaded.scene.view.height) = *options.size;
-  require_memory(loaded.scene.view, options.settings.replicates);
+  require_memory(loaded.scene.view, options.settings.film_parts());
   warn_of_options(options, loaded);
   if (!options.quiet) fmt::print(stderr, "{}\n", describe(loaded));
   if (!options.quiet || options.scene.strict) report_warnings(loaded.report.warnings, options.scene.strict);

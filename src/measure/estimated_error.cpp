@@ -5,23 +5,26 @@
 
 #include "src/measure/channels.h"
 #include "src/measure/error_figures.h"
+#include "src/measure/significance.h"
 
 namespace lemma {
 namespace {
 
-constexpr double kNormal95 = 1.959964;  // 97.5 % quantile
+constexpr double kTail = 0.025;           // beyond either end of an interval
+constexpr double kLargestFreedom = 1e12;  // no image has more pixels
 
-/// Mean of independent values with its confidence interval.
-class Mean {
+/// Mean of estimates of variances with its confidence interval.
+class MeanVariance {
  public:
-  void add(double value) { sum_ += value, squares_ += value * value, ++count_; }
+  void add(double variance) { sum_ += variance, squares_ += variance * variance, ++count_; }
 
   [[nodiscard]] Interval interval() const {
-    const double n = static_cast<double>(count_), mean = sum_ / n;
-    if (mean <= 0) return {};
-    const double variance = std::max(0.0, squares_ / n - mean * mean) / std::max(1.0, n - 1);
-    const double factor = std::exp(kNormal95 * std::sqrt(variance) / mean);
-    return {mean, mean / factor, mean * factor};
+    if (sum_ <= 0) return {};
+    const double mean = sum_ / static_cast<double>(count_);
+    const double freedom = std::min(2 * sum_ / (squares_ / sum_), kLargestFreedom);
+    const double low = freedom / chi_square_quantile(1 - kTail, freedom);
+    const double high = freedom / chi_square_quantile(kTail, freedom);
+    return {mean, mean * low, mean * high};
   }
 
  private:
@@ -32,7 +35,7 @@ class Mean {
 }  // namespace
 
 EstimatedError estimated_error(const Image& image, const Image& variance) {
-  Mean mse, relmse;
+  MeanVariance mse, relmse;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const auto value = channels(image.pixels[i]), v = channels(variance.pixels[i]);
     double relative = 0;

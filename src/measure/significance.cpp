@@ -1,6 +1,7 @@
 #include "src/measure/significance.h"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
@@ -27,6 +28,10 @@ double z_of_t(double t, double freedom) {
   const boost::math::students_t distribution(freedom);
   const double tail = boost::math::cdf(boost::math::complement(distribution, std::abs(t)));
   return std::copysign(z_limit(2 * std::max(tail, kSmallestTail)), t);
+}
+
+double chi_square_quantile(double chance, double freedom) {
+  return boost::math::quantile(boost::math::chi_squared(freedom), chance);
 }
 
 }  // namespace lemma

@@ -14,4 +14,9 @@ namespace lemma {
 /// where the tails of double end.
 [[nodiscard]] double z_of_t(double t, double freedom);
 
+/// The number that a chi-square variable of `freedom` degrees of freedom stays below with probability
+/// `chance`.
+/// @param freedom  above 0
+[[nodiscard]] double chi_square_quantile(double chance, double freedom);
+
 }  // namespace lemma

@@ -47,7 +47,7 @@ ExplainedPixel explain_pixel(const World& world, const Integrator& integrator, c
   const auto width = static_cast<std::uint32_t>(camera.width());
   const std::uint32_t pixel = static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x);
   const ExplainingIntegrator explaining(integrator, pixel, strategies, sink);
-  Film film(camera.width(), camera.height(), settings.replicates);
+  Film film(camera.width(), camera.height(), settings.film_parts());
   const TileResult result =
       render_tile(world, explaining, camera, settings, row_with(camera, x, y), {0, settings.spp}, film);
   return {film.image().at(x, y), result.invalid_samples};

@@ -61,11 +61,10 @@ struct PixelSum {
 ///
 /// With R >= 2 replicates, part k holds the samples k, k + R, k + 2 R, ...: scrambled independently, their
 /// means give the variance without bias. With one, the parts are the first half of the samples and the rest,
-/// cut at a power of two or three times one. Halves of independent samples are replicates too. Halves of one
-/// scrambled sequence are spread to fill each other's gaps: what one has too much the other tends to lack, so
-/// that their difference, and the variance made from it, is too large rather than too small. By how much
-/// follows from the rate: if the variance of a mean falls as n^-a, 2^a - 1 times, that is once for
-/// independent samples.
+/// cut at a power of two or three times one. Halves of one scrambled sequence are spread to fill each other's
+/// gaps: what one has too much the other tends to lack, so that their difference, and the variance made from
+/// it, is too large rather than too small. By how much follows from the rate: if the variance of a mean falls
+/// as n^-a, 2^a - 1 times, that is once for independent samples.
 class Film {
  public:
   Film(int width, int height, std::uint32_t replicates);

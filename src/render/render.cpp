@@ -63,7 +63,7 @@ Rendering::Rendering(const World& world, const Integrator& integrator, const Ren
       integrator_(integrator),
       settings_(settings),
       camera_(world.scene.view),
-      film_(camera_.width(), camera_.height(), settings.replicates) {}
+      film_(camera_.width(), camera_.height(), settings.film_parts()) {}
 
 void Rendering::render_to(std::uint32_t spp, const ProgressSink& progress) {
   const auto start = std::chrono::steady_clock::now();
@@ -86,7 +86,7 @@ RenderResult Rendering::result() const {
   RenderResult result = counts_;
   result.image = film_.image();
   result.variance = film_.variance();
-  result.parts = film_.parts();
+  result.parts = std::min(film_.parts(), std::max(2u, result.spp));
   result.camera_samples = std::uint64_t{result.spp} * result.image.pixels.size();
   return result;
 }

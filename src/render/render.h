@@ -14,6 +14,13 @@ struct RenderSettings {
   Sequence sequence = Sequence::sobol;
   std::uint32_t replicates = 1;  // independent scramblings that the samples take turns with
 
+  /// Parts that the film sums the samples in, see Film: independent samples are as many replicates as one
+  /// likes, and the more there are, the better is a variance known.
+  [[nodiscard]] std::uint32_t film_parts() const {
+    return sequence == Sequence::independent ? kIndependentParts : replicates;
+  }
+  static constexpr std::uint32_t kIndependentParts = 8;
+
   static constexpr std::uint32_t kMostSamples = 1u << 30;
 };
 
