@@ -161,7 +161,15 @@ CLI::App* add_compare_command(CLI::App& app, CompareOptions& o) {
       "0.1 % "
       "of\nthe pixels that have most of it; smape: mean of 2 |I - R| / (|I| + |R|); flip: mean of FLIP, "
       "HDR-FLIP "
-      "for\nradiance, at 67 pixels a degree. Pictures are compared by their values in [0, 1].");
+      "for\nradiance, at 67 pixels a degree. Pictures are compared by their values in [0, 1].\n\n"
+      "--json: the figures by these names; settings (what each figure depends on: epsilon 0.01 of relMSE, "
+      "part "
+      "left out,\npixels a degree, exposures in stops), limits (of --fail-above: figure, most, value, "
+      "exceeded), "
+      "statistical\n(different, false_alarm, block, z and limits), difference_image (of -o: file, of, and "
+      "for "
+      "pictures the scale and\nthe colour of each difference, sRGB from 0 to 1), mean_difference, "
+      "largest_differences.");
   return compare;
 }
 

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "src/measure/difference_image.h"
+#include "src/measure/flip.h"
+
 namespace lemma {
 namespace {
 
@@ -114,6 +117,52 @@ Json largest_json(const ReadImage& image, const ReadImage& reference, const Comp
   return pixels;
 }
 
+/// What the figures depend on beside the images.
+Json settings_json(const ReadImage& reference) {
+  Json flip = {{"pixels_per_degree", kFlipPixelsPerDegree}};
+  if (reference.linear) {
+    const FlipExposures exposures = flip_exposures(reference.image);
+    flip.update({{"first_exposure", exposures.first},
+                 {"last_exposure", exposures.exposure(exposures.count - 1)},
+                 {"exposures", exposures.count},
+                 {"tone_map", "aces"}});
+  }
+  return {{"relmse", {{"epsilon", kRelativeFloor}}},
+          {"trimmed-relmse", {{"epsilon", kRelativeFloor}, {"left_out", kTrimmedPart}}},
+          {"flip", flip}};
+}
+
+Json limits_json(const CompareOptions& options, const Comparison& c) {
+  Json limits = Json::array();
+  for (const FigureLimit& limit : options.limits) {
+    for (const auto& [name, value] : compare_figures(c)) {
+      if (name != limit.figure) continue;
+      limits.push_back(
+          {{"figure", name}, {"most", limit.most}, {"value", value}, {"exceeded", value > limit.most}});
+    }
+  }
+  return limits;
+}
+
+/// What the pixels of the difference image mean.
+Json difference_json(const CompareOptions& options, const Comparison& c) {
+  Json difference = {{"file", options.output.string()}};
+  if (!c.color_scale) {
+    difference["of"] = "channels";
+    return difference;
+  }
+  difference["of"] = "luminance";
+  difference["scale"] = *c.color_scale;
+  Json colors = Json::array();
+  for (std::size_t i = 0; i < kDifferenceColors.size(); ++i) {
+    const double place = 2 * static_cast<double>(i) / (kDifferenceColors.size() - 1) - 1;
+    const Rgb& color = kDifferenceColors[i];
+    colors.push_back({{"difference", place * *c.color_scale}, {"color", {color.r, color.g, color.b}}});
+  }
+  difference["colors"] = colors;
+  return difference;
+}
+
 }  // namespace
 
 NamedFigures compare_figures(const Comparison& c) {
@@ -158,6 +207,9 @@ std::string comparison_json(const CompareOptions& options, const ReadImage& imag
   if (c.standard_error) json["mean_difference_standard_error"] = *c.standard_error;
   json["largest_differences"] = largest_json(image, reference, c);
   if (c.test) json["statistical"] = test_json(options, *c.test);
+  json["settings"] = settings_json(reference);
+  json["limits"] = limits_json(options, c);
+  if (!options.output.empty()) json["difference_image"] = difference_json(options, c);
   json["exceeded"] = Json::array();
   for (const FigureLimit& limit : c.exceeded) json["exceeded"].push_back(limit.figure);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // file names may be no UTF-8

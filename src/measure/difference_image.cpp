@@ -1,7 +1,6 @@
 #include "src/measure/difference_image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -10,21 +9,11 @@ namespace {
 
 constexpr double kShownPart = 0.99;
 
-/// Colours of differences from -1 to 1, evenly spaced: a diverging map of nearly even steps to the eye, white
-/// in the middle. Values in between are mixed.
-constexpr std::array<Rgb, 7> kColors = {{{0.02f, 0.19f, 0.38f},
-                                         {0.26f, 0.58f, 0.76f},
-                                         {0.82f, 0.90f, 0.94f},
-                                         {1, 1, 1},
-                                         {0.99f, 0.86f, 0.78f},
-                                         {0.84f, 0.38f, 0.30f},
-                                         {0.40f, 0, 0.12f}}};
-
 Rgb color_of(double difference) {
-  const double place = (std::clamp(difference, -1.0, 1.0) + 1) / 2 * (kColors.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), kColors.size() - 2);
+  const double place = (std::clamp(difference, -1.0, 1.0) + 1) / 2 * (kDifferenceColors.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), kDifferenceColors.size() - 2);
   const auto part = static_cast<float>(place - static_cast<double>(below));
-  return kColors[below] * (1 - part) + kColors[below + 1] * part;
+  return kDifferenceColors[below] * (1 - part) + kDifferenceColors[below + 1] * part;
 }
 
 double luminance_difference(const Rgb& a, const Rgb& b) {

@@ -10,8 +10,6 @@
 namespace lemma {
 namespace {
 
-constexpr double kTrimmedPart = 0.001;
-
 double relative_square(double difference, double reference) {
   return difference * difference / (reference * reference + kRelativeFloor);
 }

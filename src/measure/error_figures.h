@@ -19,6 +19,9 @@ struct ErrorFigures {
 /// What keeps relMSE finite where the reference is black; 0.1 squared.
 inline constexpr double kRelativeFloor = 0.01;
 
+/// The part of the pixels that the trimmed relMSE leaves out.
+inline constexpr double kTrimmedPart = 0.001;
+
 /// @param image, reference  of the same size, not empty, all values finite
 [[nodiscard]] ErrorFigures error_figures(const Image& image, const Image& reference);
 

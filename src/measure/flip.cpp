@@ -15,7 +15,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kPixelsPerDegree = 0.7 * 3840 / 0.7 * pi / 180;
 constexpr double kColorExponent = 0.7, kFeatureExponent = 0.5;  // q_c and q_f of the paper
 constexpr double kFeatureWidth = 0.082;  // degrees between peak and trough of an edge detector
 
@@ -27,13 +26,13 @@ constexpr Sensitivity kAchromatic{1, 0.0047}, kRedGreen{1, 0.0053},
     kBlueYellow[] = {{34.1, 0.04}, {13.5, 0.025}};
 
 int blur_radius() {
-  return static_cast<int>(std::ceil(3 * std::sqrt(kBlueYellow[0].b / (2 * pi * pi)) * kPixelsPerDegree));
+  return static_cast<int>(std::ceil(3 * std::sqrt(kBlueYellow[0].b / (2 * pi * pi)) * kFlipPixelsPerDegree));
 }
 
 Kernel gaussian(double b, int radius) {
   Kernel kernel;
   for (int i = -radius; i <= radius; ++i) {
-    const double degrees = i / kPixelsPerDegree;
+    const double degrees = i / kFlipPixelsPerDegree;
     kernel.push_back(static_cast<float>(std::exp(-pi * pi * degrees * degrees / b)));
   }
   return kernel;
@@ -134,7 +133,7 @@ Plane length_of(const Plane& x, const Plane& y) {
 
 /// First and second derivatives of a Gaussian, along each axis.
 Features features_of(const Plane& luminance) {
-  const double sigma = 0.5 * kFeatureWidth * kPixelsPerDegree;
+  const double sigma = 0.5 * kFeatureWidth * kFlipPixelsPerDegree;
   const int radius = static_cast<int>(std::ceil(3 * sigma));
   Kernel smooth, edge, point;
   for (int i = -radius; i <= radius; ++i) {

@@ -31,12 +31,9 @@ Image exposed(const Image& image, double exposure) {
   return apply(ToneMap{}, shown);
 }
 
-struct Exposures {
-  double first = 0, step = 0;
-  int count = 1;
-};
+}  // namespace
 
-Exposures exposures_of(const Image& reference) {
+FlipExposures flip_exposures(const Image& reference) {
   std::vector<float> lit;
   for (const Rgb& c : reference.pixels) {
     if (luminance(c) > 0) lit.push_back(luminance(c));
@@ -54,13 +51,11 @@ Exposures exposures_of(const Image& reference) {
   return {first, (last - first) / (count - 1), count};
 }
 
-}  // namespace
-
 std::vector<float> hdr_flip(const Image& image, const Image& reference) {
-  const Exposures exposures = exposures_of(reference);
+  const FlipExposures exposures = flip_exposures(reference);
   std::vector<float> largest(image.pixels.size(), 0.0f);
   for (int i = 0; i < exposures.count; ++i) {
-    const double exposure = exposures.first + i * exposures.step;
+    const double exposure = exposures.exposure(i);
     const std::vector<float> flip = ldr_flip(exposed(image, exposure), exposed(reference, exposure));
     std::ranges::transform(largest, flip, largest.begin(), [](float a, float b) { return std::max(a, b); });
   }

@@ -12,6 +12,10 @@ COMPARISON_FAILED = 3
 FIGURES = ["rmse", "relmse", "trimmed-relmse", "smape", "flip"]
 
 
+def luminance(color):
+    return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
+
+
 class CompareTest(LemmaTest):
     def compare(self, *arguments, expected=DONE):
         run = self.lemma("compare", *arguments)
@@ -68,6 +72,33 @@ class FigureTest(CompareTest):
                             expected=COMPARISON_FAILED)
         self.assertTrue(text.endswith("rmse is above 1e-09\n"), text)
 
+    def test_json_tells_limits(self):
+        image, reference = self.render_to("a.exr", "--seed", 1), self.render_to("r.exr", "--seed", 2)
+        told = self.compare_json(image, reference, "--fail-above", "smape=2", "--fail-above", "rmse=1e-9",
+                                 expected=COMPARISON_FAILED)
+        self.assertEqual(told["limits"], [{"figure": "smape", "most": 2, "value": told["smape"], "exceeded": False},
+                                          {"figure": "rmse", "most": 1e-9, "value": told["rmse"], "exceeded": True}])
+        self.assertEqual(told["exceeded"], ["rmse"])
+        self.assertEqual(self.compare_json(image, reference)["limits"], [])
+
+    def test_json_tells_settings(self):
+        """Exposures: those that make the curve 0.85 of the brightest and of the median pixel differ by the stops between both."""
+        self.render("-o", "a.png", "--seed", 1)
+        image, reference = self.render_to("a.exr", "--seed", 1), self.render_to("r.exr", "--seed", 2)
+        settings = self.compare_json(image, reference)["settings"]
+        self.assertEqual(settings["relmse"], {"epsilon": 0.01})
+        self.assertEqual(settings["trimmed-relmse"], {"epsilon": 0.01, "left_out": 0.001})
+        self.assertAlmostEqual(settings["flip"]["pixels_per_degree"], 3840 * math.pi / 180)
+        lit = sorted(filter(None, map(luminance, image_pixels(reference))))
+        stops = settings["flip"]["last_exposure"] - settings["flip"]["first_exposure"]
+        black = len(image_pixels(reference)) - len(lit)
+        ranked = [0.0] * black + lit
+        middle = len(ranked) // 2
+        median = (ranked[(len(ranked) - 1) // 2] + ranked[middle]) / 2 or lit[len(lit) // 2]
+        self.assertAlmostEqual(stops, math.log2(lit[-1] / median), 3)
+        self.assertEqual(settings["flip"]["exposures"], max(2, math.ceil(stops)))
+        self.assertEqual(list(self.compare_json("a.png", "a.png")["settings"]["flip"]), ["pixels_per_degree"])
+
 
 class DifferenceImageTest(CompareTest):
     def test_exr_holds_the_signed_difference(self):
@@ -82,6 +113,29 @@ class DifferenceImageTest(CompareTest):
         self.compare(image, image, "-o", "d.png")
         self.assertEqual(set(image_pixels(self.folder / "d.png")), {(255.0, 255.0, 255.0)})
         self.assertEqual(image_format(self.folder / "d.png"), "uint8 png")
+
+    def test_json_tells_what_colours_mean(self):
+        """The picture's levels are those mixed from the map, but for rounding to 8 bits and the 6 digits of the listing."""
+        image, reference = self.render_to("a.exr", "--seed", 1), self.render_to("r.exr", "--seed", 2)
+        told = self.compare_json(image, reference, "-o", "d.png")["difference_image"]
+        self.assertEqual((told["file"], told["of"]), ("d.png", "luminance"))
+        places = [entry["difference"] for entry in told["colors"]]
+        self.assertEqual((places[0], places[-1]), (-told["scale"], told["scale"]))
+
+        def mixed(difference, channel):
+            levels = [255 * entry["color"][channel] for entry in told["colors"]]
+            place = (min(max(difference / told["scale"], -1), 1) + 1) / 2 * (len(levels) - 1)
+            below = min(int(place), len(levels) - 2)
+            return levels[below] + (place - below) * (levels[below + 1] - levels[below])
+
+        for i, r, d in zip(image_pixels(image), image_pixels(reference), image_pixels(self.folder / "d.png")):
+            for c in range(3):
+                self.assertAlmostEqual(d[c], mixed(luminance(i) - luminance(r), c), delta=0.6)
+
+    def test_json_of_signed_difference_has_no_colours(self):
+        image = self.render_to("a.exr")
+        self.assertEqual(self.compare_json(image, image, "-o", "d.exr")["difference_image"], {"file": "d.exr", "of": "channels"})
+        self.assertNotIn("difference_image", self.compare_json(image, image))
 
 
 class StatisticalTest(CompareTest):
