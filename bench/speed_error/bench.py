@@ -22,8 +22,15 @@ from scenes import read_scenes
 from summary import summarize
 
 
+class Parser(argparse.ArgumentParser):
+    """Refuses what it cannot take as all else is refused: with exit code 1."""
+
+    def error(self, message):
+        refuse(message, "./run bench --help lists the options")
+
+
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="./run bench", description=__doc__, allow_abbrev=False)
+    parser = Parser(prog="./run bench", description=__doc__, allow_abbrev=False)
     parser.add_argument("scenes", nargs="*", default=list(plan.SCENES), metavar="SCENE",
                         help="scenes of our own by name, others by path (default: all of our own)")
     parser.add_argument("--quick", action="store_true", help="small images, half a second each, five seeds: under 5 minutes")
@@ -66,17 +73,18 @@ def run_all(arguments, effort, scenes, jobs, threads):
     others = [peers.NAME] if arguments.peers else []
     progress = Progress(total_seconds(arguments, effort, len(configurations) + len(others)), jobs)
     references = {scene.name: measure.reference(jobs, scene, effort, progress) for scene in scenes}
-    renderings = []
+    renderings, scales = [], {}
     for seed in range(1, effort.seeds + 1):
         for scene in scenes:
             image = references[scene.name]["image"]
             for configuration in configurations:
-                figures = measure.rendering(jobs, scene, configuration, seed, effort, image)
+                figures = measure.rendering(jobs, scene, configuration, seed, effort, image, scales.get(scene.name))
+                scales.setdefault(scene.name, measure.color_scale(figures))  # that of the first, for all
                 renderings.append({"scene": scene.name, "configuration": configuration.name, "seed": seed,
                                    "options": dict(configuration.options), "figures": figures})
                 progress.done(f"{scene.name}: {configuration.name}, seed {seed}", effort.seconds)
             for name in others:
-                figures = peers.rendering(jobs, scene, seed, effort, threads, image)
+                figures = peers.rendering(jobs, scene, seed, effort, threads, image, scales[scene.name])
                 renderings.append({"scene": scene.name, "configuration": name, "seed": seed, "peer": True, "figures": figures})
                 progress.done(f"{scene.name}: {name}, seed {seed}", effort.seconds)
 

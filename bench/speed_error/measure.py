@@ -77,8 +77,9 @@ def rendering_key(scene, configuration, seed, effort):
             effort.reference_spp, REFERENCE]
 
 
-def rendering(jobs, scene, configuration, seed, effort, image):
-    """Renders for the time of the effort, with the error at every doubling of samples. Pictures are kept of the first seed."""
+def rendering(jobs, scene, configuration, seed, effort, image, scale=None):
+    """Renders for the time of the effort, with the error at every doubling of samples. Pictures are kept of the first seed, with
+    the colours of `views`."""
 
     def work(stem):
         exr, png, stats = (stem.with_suffix(ending) for ending in (".exr", ".png", ".stats"))
@@ -86,21 +87,28 @@ def rendering(jobs, scene, configuration, seed, effort, image):
              "--reference", image, *configuration.arguments(), "-o", exr, "-o", png, "--stats", stats])
         figures = json.loads(stats.read_text())
         if seed == 1:
-            figures["views"] = views(exr, png, image, stem)
+            figures["views"] = views(exr, png, image, stem, scale)
         exr.unlink()
         return figures
 
     return jobs.result(rendering_key(scene, configuration, seed, effort), work)
 
 
-def views(exr, png, reference_image, stem):
-    """Picture, signed difference, FLIP and the statistical test of a rendering against its reference."""
+def views(exr, png, reference_image, stem, scale):
+    """Picture, signed difference, FLIP and the statistical test of a rendering against its reference. Colours of the difference are
+    full at `scale`; None: at what 99 % of the pixels stay below."""
     difference, report = stem.with_suffix(".difference.png"), stem.with_suffix(".compare")
-    run([LEMMA, "compare", exr, reference_image, "-q", "-o", difference, "--json", report, "--statistical"],
+    run([LEMMA, "compare", exr, reference_image, "-q", "-o", difference, "--json", report, "--statistical",
+         *(["--scale", repr(scale)] if scale else [])],
         accepted=(0, COMPARISON_FAILED))
     compared = json.loads(report.read_text())
     return {"picture": data_url(png), "difference": data_url(difference), "flip": compared["flip"],
-            "statistical": compared["statistical"]}
+            "statistical": compared["statistical"], "colors": compared["difference_image"]["colors"]}
+
+
+def color_scale(figures):
+    """The difference at which the colours of a rendering's views are full; None without views."""
+    return figures["views"]["colors"][-1]["difference"] if "views" in figures else None
 
 
 def parity(jobs, scene, effort):

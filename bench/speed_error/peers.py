@@ -38,7 +38,7 @@ def _error_point(point, reference, stem):
             "rmse": max(0.0, errors["mse_without_noise"]) ** 0.5, "relmse": errors["relmse_without_noise"]}
 
 
-def rendering(jobs, scene, seed, effort, threads, image):
+def rendering(jobs, scene, seed, effort, threads, image, scale=None):
     """As measure.rendering, by the peer."""
 
     def work(stem):
@@ -47,7 +47,7 @@ def rendering(jobs, scene, seed, effort, threads, image):
         points = figures.pop("points")
         figures["error_curve"] = [_error_point(point, image, stem) for point in points]
         if seed == 1:
-            figures["views"] = measure.views(points[-1]["image"], stem.with_suffix(".png"), image, stem)
+            figures["views"] = measure.views(points[-1]["image"], stem.with_suffix(".png"), image, stem, scale)
         for file in stem.parent.glob(f"{stem.name}.*"):
             file.unlink()
         return figures

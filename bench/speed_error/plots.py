@@ -20,7 +20,9 @@ matplotlib.rcParams.update({
     "grid.color": "#dddddd",
     "figure.constrained_layout.use": True,
 })
+WIDTH = 5.6  # inches: as wide as a phone its text can still be read
 COLORS = pyplot.get_cmap("tab20").colors
+LEGEND_COLUMNS = 2
 DASHES = ("-", "--", "-.", ":")
 
 
@@ -58,7 +60,7 @@ def fitted_slope(points, key):
 
 def error_plot(configurations, key, unit, identity):
     """relMSE over seconds or samples, with bands of 95 % confidence over seeds. The curves' ids begin with `identity`."""
-    figure, axes = pyplot.subplots(figsize=(7.2, 4.6))
+    figure, axes = pyplot.subplots(figsize=(WIDTH, 3.6 + 0.16 * -(-len(configurations) // LEGEND_COLUMNS)))
     work, errors = [], []
     for index, (name, figures) in enumerate(configurations.items()):
         points = figures["curve"]
@@ -78,8 +80,8 @@ def error_plot(configurations, key, unit, identity):
     if work:
         axes.set_ylim(min(errors) / 2, max(errors) * 2)  # by the means: bands of few seeds reach far
         _reference_slope(axes, work)
-    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False, title="fitted slope in brackets",
-                title_fontsize=7)
+    axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.45, -0.14), ncol=LEGEND_COLUMNS, frameon=False,
+                title="fitted slope in brackets", title_fontsize=8)
     return figure
 
 
@@ -87,7 +89,7 @@ def efficiency_plot(configurations, relative_to):
     """Efficiency as a ratio to that of one of them, with intervals."""
     names = [name for name, f in configurations.items() if f["efficiency_ratio"]]
     ratios = [configurations[name]["efficiency_ratio"] for name in names]
-    figure, axes = pyplot.subplots(figsize=(7.2, 0.6 + 0.28 * len(names)))
+    figure, axes = pyplot.subplots(figsize=(WIDTH, 0.6 + 0.28 * len(names)))
     values = [r["value"] for r in ratios]
     errors = [[r["value"] - (r["low"] or r["value"]) for r in ratios], [(r["high"] or r["value"]) - r["value"] for r in ratios]]
     axes.barh(range(len(names)), values, xerr=errors, color=[style(i)["color"] for i in range(len(names))],
@@ -103,17 +105,17 @@ def efficiency_plot(configurations, relative_to):
             if end is not None and not least <= end <= most:
                 axes.plot(edge, row, marker=marker, color="black", markersize=5, clip_on=False, gid=f"clipped-{row}")
     axes.set(xscale="log", xlim=(least, most),  # by the means: intervals of few seeds reach far
-             xlabel=f"efficiency 1 / (relMSE x seconds), ratio to {relative_to}; bars: 95 %")
+             xlabel=f"efficiency 1 / (relMSE x seconds) over that of: {relative_to}")
     return figure
 
 
 def traversal_plot(cases):
     """Rays a second of grid over those of Embree."""
     rows = [(f"{case['case']}: {kind}", figures["ratio"]) for case in cases for kind, figures in case["trace"].items()]
-    figure, axes = pyplot.subplots(figsize=(7.2, 0.6 + 0.22 * len(rows)))
+    figure, axes = pyplot.subplots(figsize=(WIDTH, 0.6 + 0.22 * len(rows)))
     axes.barh(range(len(rows)), [ratio for _, ratio in rows], color=COLORS[0])
-    axes.set_yticks(range(len(rows)), [name for name, _ in rows], fontsize=7)
+    axes.set_yticks(range(len(rows)), [name for name, _ in rows], fontsize=8)
     axes.invert_yaxis()
     axes.axvline(1, color="#444444", linewidth=0.8)
-    axes.set(xscale="log", xlabel="rays a second of grid over those of Embree, medians of runs in turns")
+    axes.set(xscale="log", xlabel="rays a second, grid / Embree")
     return figure

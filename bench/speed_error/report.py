@@ -15,7 +15,6 @@ HERE = Path(__file__).resolve().parent
 # A white pixel: the picture of no difference.
 BLANK = ("data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='16' height='9'%3E"
          "%3Crect width='16' height='9' fill='white'/%3E%3C/svg%3E")
-SCALE = "each up to the difference that 99 % of its pixels stay below"
 
 
 def escape(text):
@@ -100,6 +99,18 @@ def efficiency_table(configurations, seconds, relative_to):
     return table(head, rows)
 
 
+def color_bar(configurations):
+    """What the colours of all signed errors of a scene mean; nothing without views."""
+    colors = next((f["views"]["colors"] for f in configurations.values() if f["views"]), None)
+    if not colors:
+        return ""
+    stops = ", ".join("rgb(" + " ".join(f"{100 * level:.4g}%" for level in c["color"]) + ")" for c in colors)
+    low, high = (f"{colors[end]['difference']:+.2g}" for end in (0, -1))
+    return (f'<p class="colors">{low}<i style="background: linear-gradient(to right, {stops})"></i>{high}</p><p class="note">Colours of the '
+            "signed error, image less reference in luminance, alike for all images of this scene: full at what 99 % of the pixels of the "
+            "first one stay below.</p>")
+
+
 def viewer(scene, name, configurations, reference):
     views = {"reference": {"picture": reference["picture"]}}
     views.update({name: f["views"] for name, f in configurations.items() if f["views"]})
@@ -107,13 +118,21 @@ def viewer(scene, name, configurations, reference):
     options = ["".join(f"<option{' selected' if n == chosen else ''}>{escape(n)}</option>" for n in names)
                for chosen in (names[min(1, len(names) - 1)], names[0])]
     data = json.dumps({n: {k: v[k] for k in ("picture", "difference") if k in v} for n, v in views.items()})
-    return f"""<div class="viewer" id="viewer-{escape(name)}" data-blank="{BLANK}" data-scale="{escape(SCALE)}">
+    return f"""<div class="viewer" id="viewer-{escape(name)}" data-blank="{BLANK}">
 <div class="controls"><label>left <select>{options[0]}</select></label><label>right <select>{options[1]}</select></label>
 <label>slider <input type="range" min="0" max="100" value="50"></label>
 <label><input type="checkbox"> signed error</label></div>
 <div class="stage" tabindex="0" role="img" aria-label="two images of {escape(scene)}"><img alt=""><img alt=""></div>
-<p class="caption"></p><p class="note">Click, space or enter flips; arrows choose images; e shows the signed error.</p>
+<p class="caption"></p>{color_bar(configurations)}<p class="note keys">Click, space or enter flips; arrows choose images; e shows the signed error.</p>
 <script type="application/json">{data.replace('</', '<' + chr(92) + '/')}</script></div>"""
+
+
+HOW_TO_READ = """<p class="note">In brackets: 95 % confidence over seeds. Efficiency: 1 / (relMSE x seconds) at the last measured
+point of each run, paired by seed. By CPU time: of all threads, in which other work on the machine does not count. FLIP: the difference that an eye
+sees when both images are flipped, from 0 to 1. The mean against the reference: lemma compare --statistical; with few samples a
+pixel values are far from normal, and its alarms more than stated. FLIP, this test and the images are of the first seed. Slope: of the root of relMSE
+over samples; independent samples have -0.5. A run that ends up to a fifth before a time counts there with its last error; - where a run did not
+last as long or has no measured point before. * not reached by all runs: goes on with the error as one over the time.</p>"""
 
 
 def warnings(configurations):
@@ -142,16 +161,13 @@ def scene_section(scene, name, results, folder):
              *(f'<p class="warning">{escape(text)}</p>' for text in warnings(configurations))]
     for key, unit in (("seconds", "seconds of rendering"), ("spp", "samples a pixel")):
         svg = plots.save(plots.error_plot(configurations, key, unit, f"{name}-{key}"), folder, f"{name}-{key}")
-        parts.append(figure(svg, f"Error against {unit}. Bands: 95 % over {results['effort']['seeds']} seeds."))
+        parts.append(figure(svg, f"Error against {unit}: further down and left is better. Bands: 95 % over {results['effort']['seeds']} seeds, "
+                              "cut at the plot's edge. A curve ends at the last number of samples that all seeds reached."))
     svg = plots.save(plots.efficiency_plot(configurations, results["relative_to"]), folder, f"{name}-efficiency")
     text = verdict_text(configurations)
-    parts += [figure(svg, f"Efficiency after {seconds:g} s."), f'<p class="verdict">{escape(text[0].upper() + text[1:])}.</p>',
+    parts += [figure(svg, f"Efficiency after {seconds:g} s; twice the efficiency is the same error in half the time. Bars: 95 % over seeds."), f'<p class="verdict">{escape(text[0].upper() + text[1:])}.</p>',
               efficiency_table(configurations, seconds, results["relative_to"]), errors_table(configurations),
-              '<p class="note">In brackets: 95 % confidence over seeds. By CPU time: of all threads, in which other work on the machine '
-              "does not count. The mean against the reference: lemma compare --statistical on the first seed; with few samples a pixel values "
-              "are far from normal, and its alarms more than stated. Slope: of the root of "
-              "relMSE over samples; independent samples have -0.5. A run that ends up to a fifth before a time counts there with its "
-              "last error; - where a run did not last as long or has no measured point before. * not reached by all runs: goes on with the error as one over the time.</p>",
+              HOW_TO_READ,
               f"<h3>Images after {seconds:g} s</h3>", viewer(scene, name, configurations, reference)]
     return "\n".join(parts)
 
@@ -173,7 +189,10 @@ def accelerator_section(results, folder):
             rows.append([report["scene"], accel["accel"], t["rays"], t["decided"], t["wrong"], t["missed"],
                          t["wrong_occlusion"], ("exact", "good") if faults == 0 else (f"{faults} faults", "bad")])
     parts += ["<h3>Parity: answers against exact arithmetic</h3>",
-              table(["scene", "accelerator", "rays", "decided", "wrong", "missed", "occlusion", "verdict"], rows)]
+              table(["scene", "accelerator", "rays", "decided", "wrong", "missed", "occlusion", "verdict"], rows),
+              '<p class="note">Decided: float32 leaves one answer; the others pass an edge or vertex within rounding, or meet two triangles '
+              "at once. Wrong: another triangle, or a distance beyond its error bound; missed: nothing where there is a surface; occlusion: wrong on "
+              "whether anything is hit.</p>"]
     if results["hard_cases"]:
         rows = [[h["case"], h["backend"], h["expected"], h["tried"],
                  (str(h["faults"]), "good" if h["faults"] == 0 else "bad"), h["allowed"]] for h in results["hard_cases"]]

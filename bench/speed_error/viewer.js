@@ -19,7 +19,7 @@ for (const viewer of document.querySelectorAll(".viewer")) {
     over.src = source(first);
     over.style.clipPath = `inset(0 ${100 - slider.value}% 0 0)`;
     const name = slider.value >= 100 ? first.value : slider.value <= 0 ? second.value : `${first.value} | ${second.value}`;
-    caption.textContent = name + (errors.checked ? `: too dark is blue, too bright is red, ${viewer.dataset.scale}` : "");
+    caption.textContent = name + (errors.checked ? `: signed error, too dark is blue, too bright is red` : "");
   };
   const flip = () => {
     slider.value = slider.value >= 50 ? 0 : 100;

@@ -34,6 +34,11 @@ std::optional<FigureLimit> parse_limit(const std::string& text) {
   return FigureLimit{name, *most};
 }
 
+std::optional<double> parse_scale(const std::string& text) {
+  const auto scale = parse_number<double>(text);
+  return scale && *scale > 0 && std::isfinite(*scale) ? scale : std::nullopt;
+}
+
 std::optional<double> parse_chance(const std::string& text) {
   const auto chance = parse_number<double>(text);
   return chance && *chance > 0 && *chance < 1 ? chance : std::nullopt;
@@ -107,15 +112,16 @@ Comparison compare(const CompareOptions& options, const ReadImage& image, const 
 }
 
 /// @return the scale of its colours, if it has any
-std::optional<double> write_difference(const std::filesystem::path& path, const Image& image,
+std::optional<double> write_difference(const CompareOptions& options, const Image& image,
                                        const Image& reference) {
+  const std::filesystem::path& path = options.output;
   const Metadata metadata = {{"Software", "Lemma " LEMMA_VERSION}, {"DateTime", ""}};
   if (holds_linear_floats(path)) {
     write_image(path, signed_difference(image, reference), nullptr, {}, metadata);
     return std::nullopt;
   }
   const ToneMap as_is{ToneCurve::gamma, 0, 1, 1};
-  const double scale = difference_scale(image, reference);
+  const double scale = options.scale ? *options.scale : difference_scale(image, reference);
   write_image(path, false_color(image, reference, scale), nullptr, as_is, metadata);
   return scale;
 }
@@ -139,6 +145,14 @@ CLI::App* add_compare_command(CLI::App& app, CompareOptions& o) {
        .expected = "an image file's name, with its ending",
        .help = "Difference image to write: .exr holds IMAGE - REFERENCE, a picture its luminance in colours"},
       [&o](const auto& path) { o.output = path; });
+  add_value(
+      *compare,
+      {.flag = "--scale",
+       .type = "X",
+       .expected = "a number above 0",
+       .help = "Difference of luminance at which the colours of -o are full, so that pictures can share "
+               "a scale. Default: what 99 % of its pixels stay below"},
+      into(o.scale, parse_scale));
   add_file(*compare,
            {.flag = "--json", .type = "FILE.json", .expected = "a file's name", .help = "Write all as JSON"},
            [&o](const auto& path) { o.json = path; });
@@ -180,7 +194,7 @@ ExitCode run_compare(const CompareOptions& options) {
   require_comparable(options, image, reference);
   Comparison comparison = compare(options, image, reference);
   if (!options.output.empty()) {
-    comparison.color_scale = write_difference(options.output, image.image, reference.image);
+    comparison.color_scale = write_difference(options, image.image, reference.image);
   }
   if (!options.json.empty()) {
     write_whole_file(options.json, comparison_json(options, image, reference, comparison));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct FigureLimit {
 struct CompareOptions {
   std::filesystem::path image, reference;
   std::filesystem::path output;  // difference image; empty: none
+  std::optional<double> scale;   // difference of luminance at which its colours are full; none: by the image
   std::filesystem::path json;    // empty: none
   std::vector<FigureLimit> limits;
   bool statistical = false;

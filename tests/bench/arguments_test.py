@@ -88,7 +88,8 @@ class ArgumentsTest(WithFolder):
                  ("--baseline other.json", "another effort"), ("--reference-spp 1", "--reference-spp 1"),
                  ("--out text", "File exists"), ("--out /proc/x", "/proc/x"), ("--save-baseline no/such.json", "no folder"),
                  ("--save-baseline .", "a folder"), ("--size 10", "--size 10"), ("--size 0x4", "--size 0x4"),
-                 ("--seconds 0", "--seconds 0"), ("--seconds nan", "--seconds nan"), ("--seeds 0", "--seeds 0")]
+                 ("--seconds 0", "--seconds 0"), ("--seconds nan", "--seconds nan"), ("--seeds 0", "--seeds 0"),
+                 ("--seconds x", "--seconds: invalid float value"), ("--nosuch", "--nosuch"), ("--relative-to x", "no such configuration")]
         if runs.LEMMA.exists():
             cases += [("nosuch", "no such file or folder"), ("cornell-box cornell-box", "given twice")]
         for arguments, message in cases:

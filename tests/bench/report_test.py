@@ -27,6 +27,9 @@ if not DRIVER.exists():
 CONFIGURATIONS = [c.name for c in plan.configurations(cross=False)]
 
 
+COLORS = [{"difference": d, "color": c} for d, c in ((-0.25, (0, 0, 1)), (0, (1, 1, 1)), (0.25, (1, 0, 0)))]
+
+
 def picture(level):
     """A PNG of 16 x 9 grey pixels as a data URL."""
     png = io.BytesIO()
@@ -39,7 +42,7 @@ def rendering(scene, index, seed):
               for n in (1, 2, 4, 8, 16)]
     figures = {"error_curve": points, "camera_samples_per_second": 1e6}
     if seed == 1:
-        figures["views"] = {"picture": picture(index / 20), "difference": picture(1 - index / 20), "flip": 0.1,
+        figures["views"] = {"picture": picture(index / 20), "difference": picture(1 - index / 20), "flip": 0.1, "colors": COLORS,
                             "statistical": {"different": index == 3}}
     return {"scene": scene, "configuration": CONFIGURATIONS[index], "seed": seed, "figures": figures}
 
@@ -139,7 +142,7 @@ class ReportTest(unittest.TestCase):
         stage.send_keys(Keys.ARROW_RIGHT)
         self.assertEqual(self.shown(viewer)[0], CONFIGURATIONS[1])
         stage.send_keys(Keys.ARROW_LEFT, "E")  # as with the shift key
-        told = f"default: too dark is blue, too bright is red, {report.SCALE}"
+        told = "default: signed error, too dark is blue, too bright is red"
         self.assertEqual(self.shown(viewer), (told, report.BLANK, picture(1)))  # nothing where the reference is
         self.assertNotEqual(self.shown(viewer)[2], over)
         self.assertEqual(self.browser.get_log("browser"), [])
@@ -158,7 +161,17 @@ class ReportTest(unittest.TestCase):
         self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
         self.browser.get(self.page.as_uri())
         self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), 390)
-        self.assertGreater(self.find("figure svg")[0].size["width"], 500, "wide enough to read, in a box that scrolls")
+        smallest = self.browser.execute_script(
+            "return Math.min(...[...document.querySelectorAll('figure svg text')].map(e => e.getBoundingClientRect().height))")
+        self.assertGreaterEqual(smallest, 8, "pixels: the plots' text can be read")
+
+    def test_signed_errors_share_a_scale(self):
+        """A bar beside the viewer, from the first colour to the last, with numbers."""
+        bars = self.find(".viewer .colors")
+        self.assertEqual(len(bars), 2)
+        self.assertEqual(bars[0].text.split(), ["-0.25", "+0.25"])
+        colors = bars[0].find_element("css selector", "i").value_of_css_property("background-image")
+        self.assertEqual(colors, "linear-gradient(to right, rgb(0, 0, 255), rgb(255, 255, 255), rgb(255, 0, 0))")
 
     def test_times_that_nobody_reached_have_a_dash(self):
         head, row = (self.find("table")[1].find_elements("css selector", selector) for selector in ("th", "tbody tr:first-child td"))

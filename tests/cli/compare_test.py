@@ -132,6 +132,23 @@ class DifferenceImageTest(CompareTest):
             for c in range(3):
                 self.assertAlmostEqual(d[c], mixed(luminance(i) - luminance(r), c), delta=0.6)
 
+    def test_pictures_can_share_a_scale(self):
+        """Twice the scale: what was full is mixed half."""
+        image, reference = self.render_to("a.exr", "--seed", 1), self.render_to("r.exr", "--seed", 2)
+        own = self.compare_json(image, reference, "-o", "d.png")["difference_image"]["scale"]
+        told = self.compare_json(image, reference, "-o", "e.png", "--scale", 2 * own)["difference_image"]
+        self.assertEqual(told["scale"], 2 * own)
+        self.assertEqual(told["colors"][-1]["difference"], 2 * own)
+        pairs = list(zip(image_pixels(self.folder / "d.png"), image_pixels(self.folder / "e.png")))
+        self.assertTrue(all(e >= d for one, other in pairs for d, e in zip(one, other)), "nearer to white")
+        self.assertNotEqual(*map(list, zip(*pairs)))
+
+    def test_bad_scales_are_refused(self):
+        for scale in ("0", "-1", "inf", "x"):
+            run = self.lemma("compare", "a.exr", "b.exr", "--scale", scale)
+            self.assertEqual((run.returncode, run.stdout), (BAD_INPUT, ""))
+            self.assertEqual(run.stderr, f'lemma: error: --scale: invalid value "{scale}"\n  hint: expected a number above 0\n')
+
     def test_json_of_signed_difference_has_no_colours(self):
         image = self.render_to("a.exr")
         self.assertEqual(self.compare_json(image, image, "-o", "d.exr")["difference_image"], {"file": "d.exr", "of": "channels"})
