@@ -123,7 +123,7 @@ def viewer(scene, name, configurations, reference):
 <label>slider <input type="range" min="0" max="100" value="50"></label>
 <label><input type="checkbox"> signed error</label></div>
 <div class="stage" tabindex="0" role="img" aria-label="two images of {escape(scene)}"><img alt=""><img alt=""></div>
-<p class="caption"></p>{color_bar(configurations)}<p class="note keys">Click, space or enter flips; arrows choose images; e shows the signed error.</p>
+<p class="caption"></p><div class="gallery"></div>{color_bar(configurations)}<p class="note keys">Click, space or enter flips; arrows choose images; e shows the signed error.</p>
 <script type="application/json">{data.replace('</', '<' + chr(92) + '/')}</script></div>"""
 
 

@@ -3,7 +3,7 @@
 for (const viewer of document.querySelectorAll(".viewer")) {
   const views = JSON.parse(viewer.querySelector("script").textContent);
   const [first, second] = viewer.querySelectorAll("select");
-  const [under, over] = viewer.querySelectorAll("img");
+  const [under, over] = viewer.querySelectorAll(".stage img");
   const blank = viewer.dataset.blank; // the reference differs nowhere from itself
   const [slider] = viewer.querySelectorAll("input[type=range]");
   const [errors] = viewer.querySelectorAll("input[type=checkbox]");
@@ -41,6 +41,13 @@ for (const viewer of document.querySelectorAll(".viewer")) {
     event.preventDefault();
     action();
   });
+  // On paper nothing can be flipped: there all images stand side by side.
+  const gallery = viewer.querySelector(".gallery");
+  for (const [name, view] of Object.entries(views)) {
+    const figure = gallery.appendChild(document.createElement("figure"));
+    for (const address of [view.picture, view.difference || blank]) figure.appendChild(new Image()).src = address;
+    figure.appendChild(document.createElement("figcaption")).textContent = name;
+  }
   for (const control of [first, second, slider, errors]) control.addEventListener("input", show);
   show();
 }

@@ -121,14 +121,14 @@ class ReportTest(unittest.TestCase):
 
     def shown(self, viewer):
         """Caption, and addresses of the images below and above."""
-        images = [image.get_attribute("src") for image in viewer.find_elements("css selector", "img")]
+        images = [image.get_attribute("src") for image in viewer.find_elements("css selector", ".stage img")]
         return viewer.find_element("css selector", ".caption").text, *images
 
     def test_viewer_answers_clicks_and_keys(self):
         viewer = self.find(".viewer")[0]
         stage = viewer.find_element("css selector", ".stage")
         widths = self.browser.execute_script(
-            "return [...document.querySelectorAll('.viewer img')].map(i => i.naturalWidth)")
+            "return [...document.querySelectorAll('.stage img')].map(i => i.naturalWidth)")
         self.assertEqual(set(widths), {16}, "all images are loaded")
         caption, under, over = self.shown(viewer)
         self.assertEqual((caption, under), ("default | reference", picture(0.5)))
@@ -152,7 +152,7 @@ class ReportTest(unittest.TestCase):
         self.browser.execute_script(
             "arguments[0].value = 30; arguments[0].dispatchEvent(new Event('input'))",
             viewer.find_element("css selector", "input[type=range]"))
-        over = viewer.find_elements("css selector", "img")[1]
+        over = viewer.find_elements("css selector", ".stage img")[1]
         self.assertIn("70%", over.value_of_css_property("clip-path"))
 
     def test_fits_a_phone(self):
@@ -189,16 +189,24 @@ class ReportTest(unittest.TestCase):
         self.assertEqual([p.text for p in self.find("p.verdict")], 2 * ["The default is the most efficient, by CPU time."])
 
     def test_printed_page(self):
-        """A sheet of paper shows the images but no controls, and nothing is cut off at its edge."""
+        """A sheet of paper shows all images with their signed errors, no controls, and nothing is cut off at its edge."""
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",  # A4 without margins of 1 cm, at 96 dots an inch
                                      {"width": 718, "height": 1047, "deviceScaleFactor": 1, "mobile": False})
         self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
         self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.setEmulatedMedia", {"media": ""})
         self.assertEqual([c.is_displayed() for c in self.find(".controls, nav")], 3 * [False])
-        self.assertTrue(all(image.is_displayed() for image in self.find(".stage img")))
+        self.assertEqual([stage.is_displayed() for stage in self.find(".stage")], 2 * [False])
+        galleries = self.find(".gallery")
+        for gallery in galleries:
+            captions = [caption.text for caption in gallery.find_elements("css selector", "figcaption")]
+            self.assertEqual(captions, ["reference", *CONFIGURATIONS, PEER])
+            images = gallery.find_elements("css selector", "img")
+            self.assertEqual([image.is_displayed() for image in images], 2 * len(captions) * [True])
+            self.assertEqual(images[3].get_attribute("src"), picture(1))  # the default's signed error
+        self.assertEqual(len(galleries), 2)
         widest = self.browser.execute_script(
-            "return Math.max(...[...document.querySelectorAll('table, svg, .stage')].map(e => e.getBoundingClientRect().right))")
+            "return Math.max(...[...document.querySelectorAll('table, svg, .gallery img')].map(e => e.getBoundingClientRect().right))")
         self.assertLessEqual(widest, 718)
 
 
