@@ -19,7 +19,7 @@
 namespace lemma::bench {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 360, kBatch = 16;
+constexpr int kBatch = 16;
 
 constexpr const char* kRealScenes = "LEMMA_REAL_SCENES";  // a folder with the course's staircase
 constexpr const char* kStaircase = "staircase";
@@ -97,17 +97,17 @@ Case make_case(const std::string& name) {
   return scene_case(name);
 }
 
-RecordedRays record_rays(const Case& scene, const Accelerator& accel) {
+RecordedRays record_rays(const Case& scene, const Accelerator& accel, const RaySize& size) {
   CameraView view = scene.view;
-  view.width = kWidth;
-  view.height = kHeight;
+  view.width = size.width;
+  view.height = size.height;
   const Camera camera(view);
   RecordedRays rays;
-  for (int tile_y = 0; tile_y < kHeight; tile_y += kBatch) {
-    for (int tile_x = 0; tile_x < kWidth; tile_x += kBatch) {
-      for (int y = tile_y; y < std::min(tile_y + kBatch, kHeight); ++y) {
+  for (int tile_y = 0; tile_y < size.height; tile_y += kBatch) {
+    for (int tile_x = 0; tile_x < size.width; tile_x += kBatch) {
+      for (int y = tile_y; y < std::min(tile_y + kBatch, size.height); ++y) {
         for (int x = tile_x; x < tile_x + kBatch; ++x) {
-          Sampler random(1, static_cast<std::uint32_t>(y * kWidth + x), 0);
+          Sampler random(1, static_cast<std::uint32_t>(y * size.width + x), 0);
           const Vec2 u = random.next_2d();
           const Ray ray = camera.ray_through(static_cast<float>(x) + u.x, static_cast<float>(y) + u.y);
           rays.primary.push_back(ray);

@@ -35,7 +35,12 @@ struct RecordedRays {
   std::vector<Ray> bounce;   // from where those hit, cosine-distributed
   std::vector<Ray> shadow;   // from the same points to points of the lights
 };
-[[nodiscard]] RecordedRays record_rays(const Case& scene, const Accelerator& accel);
+
+/// How many camera rays [pixels]; the width is a multiple of 16.
+struct RaySize {
+  int width = 640, height = 360;
+};
+[[nodiscard]] RecordedRays record_rays(const Case& scene, const Accelerator& accel, const RaySize& size = {});
 
 /// How rays are asked for.
 struct RayKind {

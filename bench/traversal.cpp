@@ -3,6 +3,9 @@
 //   traversal --ratios [case...] [--growth] [--rounds=N] [--ratios-out=FILE.json]
 //                                                grid against embree, measured in turns (ratios.h);
 //                                                --growth: meshes from 1k to 4M triangles
+//   traversal --embree-rate CASE                 rays a second of Embree alone, a unit of time
+//   (embree_rate.h)
+// A case is a built-in name (cases.h) or a scene's folder or file.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -12,6 +15,7 @@
 #include <stdexcept>
 
 #include "bench/cases.h"
+#include "bench/embree_rate.h"
 #include "bench/ratios.h"
 
 namespace lemma::bench {
@@ -116,6 +120,10 @@ int main(int argc, char** argv) {
   try {
     if (argc > 1 && std::string_view(argv[1]) == "--ratios")
       return lemma::bench::run_ratios({argv + 2, argv + argc});
+    if (argc == 3 && std::string_view(argv[1]) == "--embree-rate") {
+      fmt::print("{:.6g}\n", lemma::bench::embree_rate(argv[2]));
+      return 0;
+    }
     return lemma::bench::run_benchmarks(argc, argv);
   } catch (const std::exception& e) {
     fmt::print(stderr, "traversal: error: {}\n", e.what());

@@ -21,6 +21,8 @@ from runs import LEMMA, PROJECT, Jobs, Progress, commit, libraries, machine, pro
 from scenes import read_scenes
 from summary import summarize
 
+TRAVERSAL = PROJECT / "build/release/bench/traversal"
+
 
 class Parser(argparse.ArgumentParser):
     """Refuses what it cannot take as all else is refused: with exit code 1."""
@@ -63,7 +65,8 @@ def total_seconds(arguments, effort, runs):
     each = effort.reference_seconds() + effort.parity_seconds() + runs * effort.seeds * effort.seconds
     if arguments.peers:
         each += effort.reference_seconds() * effort.peer_spp / effort.reference_spp
-    return len(arguments.scenes) * each + effort.traversal_seconds() + plan.HARD_SECONDS
+    each += effort.seeds * runs / plan.RENDERINGS_A_RATE * plan.RATE_SECONDS
+    return len(arguments.scenes) * each + effort.traversal_seconds(len(arguments.scenes)) + plan.HARD_SECONDS
 
 
 def run_all(arguments, effort, scenes, jobs, threads):
@@ -77,11 +80,13 @@ def run_all(arguments, effort, scenes, jobs, threads):
     for seed in range(1, effort.seeds + 1):
         for scene in scenes:
             image = references[scene.name]["image"]
-            for configuration in configurations:
+            for turn, configuration in enumerate(configurations):
+                if turn % plan.RENDERINGS_A_RATE == 0:
+                    rate = measure.embree_rate(jobs, scene, seed, turn, effort, TRAVERSAL)
                 figures = measure.rendering(jobs, scene, configuration, seed, effort, image, scales.get(scene.name))
                 scales.setdefault(scene.name, measure.color_scale(figures))  # that of the first, for all
                 renderings.append({"scene": scene.name, "configuration": configuration.name, "seed": seed,
-                                   "options": dict(configuration.options), "figures": figures})
+                                   "options": dict(configuration.options), "embree_rate": rate, "figures": figures})
                 progress.done(f"{scene.name}: {configuration.name}, seed {seed}", effort.seconds)
             for name in others:
                 figures = peers.rendering(jobs, scene, seed, effort, threads, image, scales[scene.name])
@@ -95,8 +100,8 @@ def run_all(arguments, effort, scenes, jobs, threads):
     parity = [told(f"{s.name}: parity", effort.parity_seconds(), measure.parity(jobs, s, effort)) for s in scenes]
     agreement = [told(f"{s.name}: agreement of {peers.NAME}", effort.reference_seconds() * effort.peer_spp / effort.reference_spp,
                       peers.agreement(jobs, s, effort, threads, references[s.name])) for s in scenes] if arguments.peers else []
-    traversal = told("traversal", effort.traversal_seconds(),
-                     measure.traversal(jobs, effort, PROJECT / "build/release/bench/traversal"))
+    traversal = told("traversal", effort.traversal_seconds(len(scenes)),
+                     measure.traversal(jobs, effort, scenes, TRAVERSAL))
     hard_cases = told("hard cases", plan.HARD_SECONDS, measure.hard_cases(jobs, PROJECT / "build/release/tests/hard_tests"))
     return {"references": references, "renderings": renderings, "parity": parity, "peers": agreement, "traversal": traversal,
             "hard_cases": hard_cases}
@@ -110,6 +115,8 @@ def bench():
     baseline = checks.read_baseline(arguments.baseline, effort) if arguments.baseline else None
     if arguments.save_baseline:
         checks.check_target(arguments.save_baseline, "--save-baseline")
+    if arguments.baseline or arguments.save_baseline:
+        checks.check_seeds(effort)
     scenes = read_scenes(arguments.scenes)
     out = arguments.out.resolve()
     checks.make_folder(out, "--out")

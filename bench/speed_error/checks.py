@@ -5,6 +5,7 @@ import os
 import re
 
 from plan import REFERENCE_REPLICATES
+from regression import EFFORT, LEAST_SEEDS
 from runs import refuse
 
 MOST_PIXELS = 65536  # in a row or column, as lemma allows
@@ -24,6 +25,11 @@ def check_effort(effort):
                f"expected at least {REFERENCE_REPLICATES}, one of each independent scrambling, whose spread tells the reference's own error")
 
 
+def check_seeds(effort):
+    if effort.seeds < LEAST_SEEDS:
+        refuse(f"--seeds {effort.seeds}", f"a baseline needs at least {LEAST_SEEDS}, whose spread tells what is chance")
+
+
 def read_baseline(path, effort):
     """A file of --save-baseline, of a run of the same effort."""
     hint = "name a file that --save-baseline wrote, such as bench/baseline.json"
@@ -33,12 +39,12 @@ def read_baseline(path, effort):
         refuse(f"--baseline {path}: {error.strerror}", hint)
     except ValueError:
         refuse(f"--baseline {path}: this is no JSON", hint)
-    if not isinstance(baseline, dict) or not {"effort", "traversal_cases", "per_embree_ray"} <= set(baseline):
+    if not isinstance(baseline, dict) or not {"effort", "figures"} <= set(baseline):
         refuse(f"--baseline {path}: this is no baseline", hint)
-    told = {"size": effort.size, "seconds": effort.seconds}
-    if baseline["effort"] != told or baseline["traversal_cases"] != list(effort.traversal_cases):
-        refuse(f"--baseline {path}: it is of another effort, {baseline['effort']} with traversal of "
-               f"{', '.join(baseline['traversal_cases'])}", f"this run has {told}; take the options of the baseline's run")
+    told = {key: getattr(effort, key) for key in EFFORT}
+    if baseline["effort"] != told:
+        refuse(f"--baseline {path}: it is of another effort, {baseline['effort']}",
+               f"this run has {told}; take the options of the baseline's run")
     return baseline
 
 

@@ -23,9 +23,29 @@ def t_quantile(freedom):
     return _Z + (_Z**3 + _Z) / (4 * freedom) + (5 * _Z**5 + 16 * _Z**3 + 3 * _Z) / (96 * freedom**2)
 
 
+def t_limit(chance, freedom):
+    """The number that |t| exceeds with probability `chance`, of whole degrees of freedom (Abramowitz and Stegun 26.7.3 and
+    26.7.4, solved by bisection over the angle)."""
+
+    def inside(angle):
+        term, total, odd = 1.0, 0.0, freedom % 2
+        for k in range(2 + odd, freedom + 1, 2):
+            total += term
+            term *= (k - 1) / k * math.cos(angle) ** 2
+        if not odd:
+            return math.sin(angle) * total
+        return 2 / math.pi * (angle + math.sin(angle) * math.cos(angle) * total)
+
+    low, high = 0.0, math.pi / 2
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if inside(middle) < 1 - chance else (low, middle)
+    return math.sqrt(freedom) * math.tan(low)
+
+
 @dataclass(frozen=True)
 class Estimate:
-    """A value with the ends of its 95 % confidence interval; the ends are None if one run alone was made."""
+    """A value with the ends of its confidence interval, of 95 % if nothing else is said; the ends are None if one run alone was made."""
 
     value: float
     low: float | None
@@ -35,19 +55,19 @@ class Estimate:
         return {"value": self.value, "low": self.low, "high": self.high}
 
 
-def mean(values):
-    """Arithmetic mean of runs."""
+def mean(values, chance=0.05):
+    """Arithmetic mean of runs; `chance`: that the interval misses the truth."""
     values = numpy.asarray(values, float)
     centre = float(values.mean())
     if len(values) < 2:
         return Estimate(centre, None, None)
-    half = t_quantile(len(values) - 1) * float(values.std(ddof=1)) / math.sqrt(len(values))
+    half = t_limit(chance, len(values) - 1) * float(values.std(ddof=1)) / math.sqrt(len(values))
     return Estimate(centre, centre - half, centre + half)
 
 
-def geometric_mean(values):
+def geometric_mean(values, chance=0.05):
     """Geometric mean of runs, all above 0."""
-    e = mean(numpy.log(values))
+    e = mean(numpy.log(values), chance)
     return Estimate(*(None if x is None else math.exp(x) for x in (e.value, e.low, e.high)))
 
 
@@ -65,10 +85,10 @@ def ratio(values, baseline):
     return Estimate(math.exp(centre), math.exp(centre - half), math.exp(centre + half))
 
 
-def paired_ratio(values, baseline):
+def paired_ratio(values, baseline, chance=0.05):
     """Geometric mean of the ratios of runs that were made one after the other: what slowed both, as other work on the machine
     did, is no part of their spread."""
-    return geometric_mean(numpy.asarray(values, float) / numpy.asarray(baseline, float))
+    return geometric_mean(numpy.asarray(values, float) / numpy.asarray(baseline, float), chance)
 
 
 def slope(curves):

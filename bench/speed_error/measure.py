@@ -7,9 +7,10 @@ import re
 from pathlib import Path
 
 from plan import REFERENCE, REFERENCE_REPLICATES, REFERENCE_SEED
-from runs import LEMMA, run
+from runs import LEMMA, PROJECT, run
 
 COMPARISON_FAILED = 3  # exit code of lemma
+EMBREE_CASE = "veach-mis"  # of the rays that are the unit of time
 PART_SPP = 4096  # samples a pixel of a reference that are rendered at once
 
 
@@ -111,6 +112,15 @@ def color_scale(figures):
     return figures["views"]["colors"][-1]["difference"] if "views" in figures else None
 
 
+def embree_rate(jobs, scene, seed, turn, effort, program):
+    """Rays a second of processor time that Embree alone traces now, as a unit of the time of renderings made beside; None without
+    the program."""
+    if not program.exists():
+        return None
+    return jobs.result(["embree rate", scene.digest, seed, turn, effort.seconds],
+                       lambda _: float(run([program, "--embree-rate", EMBREE_CASE])))
+
+
 def parity(jobs, scene, effort):
     """The accelerators against the exact oracle on a scene."""
 
@@ -124,17 +134,26 @@ def parity(jobs, scene, effort):
     return {**report, "scene": scene.name}
 
 
-def traversal(jobs, effort, program):
+def traversal_names(effort, scenes):
+    """Cases of the program by the names of the report: the scenes of the run, by their paths, and its own."""
+    return {**{str(scene.path): scene.name for scene in scenes},
+            **{case: case for case in effort.traversal_cases if PROJECT / "scenes" / case not in [scene.path for scene in scenes]}}
+
+
+def traversal(jobs, effort, scenes, program):
     """Rays a second of grid against Embree, in turns; None without the program."""
     if not program.exists():
         return None
+    names = traversal_names(effort, scenes)
 
     def work(stem):
         out = stem.with_suffix(".traversal")
-        run([program, "--ratios", *effort.traversal_cases, f"--rounds={effort.traversal_rounds}", f"--ratios-out={out}"])
+        run([program, "--ratios", *names, f"--rounds={effort.traversal_rounds}", f"--ratios-out={out}"])
         return json.loads(out.read_text())
 
-    return jobs.result(["traversal", effort.traversal_cases, effort.traversal_rounds], work)
+    table = jobs.result(["traversal", *([scene.digest, str(scene.path)] for scene in scenes), effort.traversal_cases,
+                         effort.traversal_rounds], work)
+    return {**table, "cases": [{**case, "case": names[case["case"]]} for case in table["cases"]]}
 
 
 def hard_rows(table):

@@ -62,7 +62,7 @@ class Effort:
     seeds: int
     reference_spp: int
     parity_rays: int
-    traversal_cases: tuple  # of ./run bench-traversal
+    traversal_cases: tuple  # of ./run bench-traversal, beside the scenes
     traversal_rounds: int
     peer_spp: int  # samples a pixel of other renderers' converged images
 
@@ -78,11 +78,12 @@ class Effort:
     def parity_seconds(self):
         return self.parity_rays / 2e4
 
-    def traversal_seconds(self):
-        return 1.5 * len(self.traversal_cases) * self.traversal_rounds
+    def traversal_seconds(self, scenes):
+        return 1.5 * (len(self.traversal_cases) + scenes) * self.traversal_rounds
 
 
 HARD_SECONDS = 40
+RENDERINGS_A_RATE, RATE_SECONDS = 4, 0.3  # Embree's rate is measured before each so many renderings; what it takes
 QUICK = Effort("128x72", 0.5, 5, 2048, 20000, ("veach-mis", "interior"), 3, 1024)
 FULL = Effort("320x180", 60.0, 8, 16384, 1000000,
               ("veach-mis", "interior", "sphere-1M", "field-1M"), 7, 16384)

@@ -82,14 +82,15 @@ class ArgumentsTest(WithFolder):
     def test_what_is_wrong_is_told_before_anything_is_measured(self):
         (self.folder / "text").write_text("no JSON")
         (self.folder / "else.json").write_text("{}")
-        other = {"effort": {"size": "9x9", "seconds": 1}, "traversal_cases": [], "per_embree_ray": {}}
+        other = {"effort": {"size": "9x9", "seconds": 1, "reference_spp": 64}, "figures": {}}
         (self.folder / "other.json").write_text(json.dumps(other))
         cases = [("--baseline nosuch.json", "No such file"), ("--baseline text", "no JSON"), ("--baseline else.json", "no baseline"),
                  ("--baseline other.json", "another effort"), ("--reference-spp 1", "--reference-spp 1"),
                  ("--out text", "File exists"), ("--out /proc/x", "/proc/x"), ("--save-baseline no/such.json", "no folder"),
                  ("--save-baseline .", "a folder"), ("--size 10", "--size 10"), ("--size 0x4", "--size 0x4"),
                  ("--seconds 0", "--seconds 0"), ("--seconds nan", "--seconds nan"), ("--seeds 0", "--seeds 0"),
-                 ("--seconds x", "--seconds: invalid float value"), ("--nosuch", "--nosuch"), ("--relative-to x", "no such configuration")]
+                 ("--seconds x", "--seconds: invalid float value"), ("--nosuch", "--nosuch"), ("--relative-to x", "no such configuration"),
+                 ("--seeds 2 --save-baseline new.json", "--seeds 2")]
         if runs.LEMMA.exists():
             cases += [("nosuch", "no such file or folder"), ("cornell-box cornell-box", "given twice")]
         for arguments, message in cases:
