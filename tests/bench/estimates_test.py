@@ -275,7 +275,7 @@ class RegressionTest(unittest.TestCase):
             code = regression.compare_with_baseline(*(regression.baseline_of(self.results(cost=c)) for c in (2, 1)))
         self.assertEqual(code, 3)
         self.assertRegex(out.getvalue(), r"(?m)^worse than the baseline: s, lights power: time of a sample [\d.]+ "
-                                         r"\([\d.]+ to [\d.]+\) times; up to 1.25 is allowed$")
+                                         r"\([\d.]+ to [\d.]+\) times; up to 1.15 is allowed$")
 
     def test_other_renderers_have_no_baseline(self):
         self.assertEqual(list(regression.baseline_of(self.results())["figures"]["s"]), ["default", "lights power"])
