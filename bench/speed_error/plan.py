@@ -82,8 +82,8 @@ class Effort:
         return 1.5 * (len(self.traversal_cases) + scenes) * self.traversal_rounds
 
 
-HARD_SECONDS = 40
-RENDERINGS_A_RATE, RATE_SECONDS = 4, 0.3  # Embree's rate is measured before each so many renderings; what it takes
+HARD_SECONDS = 60
+RENDERINGS_A_RATE, RATE_SECONDS = 7, 0.3  # Embree's rate is measured before each so many renderings; what it takes
 QUICK = Effort("128x72", 0.5, 5, 2048, 20000, ("veach-mis", "interior"), 3, 1024)
 FULL = Effort("320x180", 60.0, 8, 16384, 1000000,
               ("veach-mis", "interior", "sphere-1M", "field-1M"), 7, 16384)
