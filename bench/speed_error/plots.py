@@ -21,13 +21,17 @@ matplotlib.rcParams.update({
     "figure.constrained_layout.use": True,
 })
 WIDTH = 5.6  # inches: as wide as a phone its text can still be read
-COLORS = pyplot.get_cmap("tab20").colors
 LEGEND_COLUMNS = 2
+# Okabe and Ito, Color Universal Design (2008), which colour-blind eyes tell apart; without yellow, which is faint on white.
+COLORS = ("#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7")
 DASHES = ("-", "--", "-.", ":")
+MARKERS = ("o", "s", "^", "D", "v")
 
 
 def style(index):
-    return {"color": COLORS[(2 * index) % 20 + (2 * index) // 20 % 2], "linestyle": DASHES[index // 10 % 4]}
+    """Of a curve: when all colours are taken, they come again with other dashes and markers."""
+    turn = index // len(COLORS)
+    return {"color": COLORS[index % len(COLORS)], "linestyle": DASHES[turn % len(DASHES)], "marker": MARKERS[turn % len(MARKERS)]}
 
 
 def save(figure, folder, name):
@@ -58,21 +62,34 @@ def fitted_slope(points, key):
     return float(numpy.polyfit(numpy.log(work), numpy.log(error), 1)[0])
 
 
+def _draw_end(axes, last, end, key, look, identity):
+    """From a curve's last point on to where the runs end: thin, with an open marker and its interval as a bar."""
+    value, low, high = (end["relmse"][name] for name in ("value", "low", "high"))
+    axes.plot((last[key], end[key]), (last["relmse"]["value"], value), color=look["color"], linewidth=0.8, linestyle=(0, (2, 2)))
+    axes.plot(end[key], value, color=look["color"], marker=look["marker"], markersize=4, markerfacecolor="white", gid=identity)
+    if low is not None:
+        axes.plot((end[key], end[key]), (low, high), color=look["color"], linewidth=0.8)
+
+
 def error_plot(configurations, key, unit, identity):
     """relMSE over seconds or samples, with bands of 95 % confidence over seeds. The curves' ids begin with `identity`."""
     figure, axes = pyplot.subplots(figsize=(WIDTH, 3.6 + 0.16 * -(-len(configurations) // LEGEND_COLUMNS)))
     work, errors = [], []
     for index, (name, figures) in enumerate(configurations.items()):
-        points = figures["curve"]
+        points, end = figures["curve"], figures["end"]
         if not points:
             continue
         xs = [p[key] for p in points]
         work += xs
         errors += [p["relmse"]["value"] for p in points]
         slope = fitted_slope(points, key)
-        axes.plot(xs, [p["relmse"]["value"] for p in points], marker="o", markersize=2.5,
+        axes.plot(xs, [p["relmse"]["value"] for p in points], markersize=2.5,
                   linewidth=2.6 if index == 0 else 1.3, zorder=4 if index == 0 else 2,  # the default on top
                   label=name if slope is None else f"{name} ({slope:.2f})", gid=f"{identity}-curve-{index}", **style(index))
+        if end:
+            _draw_end(axes, points[-1], end, key, style(index), f"{identity}-end-{index}")
+            work.append(end[key])
+            errors.append(end["relmse"]["value"])
         if points[0]["relmse"]["low"] is not None:
             axes.fill_between(xs, [p["relmse"]["low"] for p in points], [p["relmse"]["high"] for p in points],
                               color=style(index)["color"], alpha=0.15, linewidth=0)
@@ -93,7 +110,7 @@ def efficiency_plot(configurations, relative_to):
     values = [r["value"] for r in ratios]
     errors = [[r["value"] - (r["low"] or r["value"]) for r in ratios], [(r["high"] or r["value"]) - r["value"] for r in ratios]]
     axes.barh(range(len(names)), values, xerr=errors, color=[style(i)["color"] for i in range(len(names))],
-              error_kw={"elinewidth": 1, "capsize": 2})
+              error_kw={"elinewidth": 1.2, "capsize": 2, "ecolor": "#808080"})  # grey: seen on black, too
     axes.set_yticks(range(len(names)), names)
     axes.invert_yaxis()
     axes.axvline(1, color="#444444", linewidth=0.8)
@@ -113,7 +130,7 @@ def traversal_plot(cases):
     """Rays a second of grid over those of Embree."""
     rows = [(f"{case['case']}: {kind}", figures["ratio"]) for case in cases for kind, figures in case["trace"].items()]
     figure, axes = pyplot.subplots(figsize=(WIDTH, 0.6 + 0.22 * len(rows)))
-    axes.barh(range(len(rows)), [ratio for _, ratio in rows], color=COLORS[0])
+    axes.barh(range(len(rows)), [ratio for _, ratio in rows], color=COLORS[4])
     axes.set_yticks(range(len(rows)), [name for name, _ in rows], fontsize=8)
     axes.invert_yaxis()
     axes.axvline(1, color="#444444", linewidth=0.8)

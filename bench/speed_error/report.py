@@ -86,6 +86,22 @@ def errors_table(configurations):
     return table(head, rows)
 
 
+MARK = " \N{DAGGER}"
+
+
+def mark_of(figures):
+    return MARK if figures["unmeasured_ends"] else ""
+
+
+def footnote(configurations, seeds):
+    """Whose efficiency is not that of the end; nothing if all are."""
+    early = [f"{name} ({f['unmeasured_ends']} of {seeds} runs)" for name, f in configurations.items() if f["unmeasured_ends"]]
+    if not early:
+        return ""
+    return (f'<p class="note early">{MARK}: the last error is no measurement, since the reference\'s own hides it; the efficiency is '
+            f"that of an earlier point: {escape(', '.join(early))}.</p>")
+
+
 def efficiency_table(configurations, seconds, relative_to):
     head = ["configuration", f"efficiency / {relative_to}", "the same by CPU time", f"FLIP at {seconds:g} s", "mean against the reference"]
     rows = []
@@ -94,7 +110,7 @@ def efficiency_table(configurations, seconds, relative_to):
         agrees = "-"
         if views:
             agrees = ("different", "bad") if views["statistical"]["different"] else ("agrees", "good")
-        rows.append([name, interval(f["efficiency_ratio"]), interval(f["cpu_efficiency_ratio"]),
+        rows.append([name + mark_of(f), interval(f["efficiency_ratio"]), interval(f["cpu_efficiency_ratio"]),
                      f"{views['flip']:.3g}" if views else "-", agrees])
     return table(head, rows)
 
@@ -123,7 +139,7 @@ def viewer(scene, name, configurations, reference):
 <label>slider <input type="range" min="0" max="100" value="50"></label>
 <label><input type="checkbox"> signed error</label></div>
 <div class="stage" tabindex="0" role="img" aria-label="two images of {escape(scene)}"><img alt=""><img alt=""></div>
-<p class="caption"></p><div class="gallery"></div>{color_bar(configurations)}<p class="note keys">Click, space or enter flips; arrows choose images; e shows the signed error.</p>
+<p class="caption" aria-live="polite"></p><div class="gallery"></div>{color_bar(configurations)}<p class="note keys">Click, space or enter flips; arrows choose images; e shows the signed error.</p>
 <script type="application/json">{data.replace('</', '<' + chr(92) + '/')}</script></div>"""
 
 
@@ -162,11 +178,13 @@ def scene_section(scene, name, results, folder):
     for key, unit in (("seconds", "seconds of rendering"), ("spp", "samples a pixel")):
         svg = plots.save(plots.error_plot(configurations, key, unit, f"{name}-{key}"), folder, f"{name}-{key}")
         parts.append(figure(svg, f"Error against {unit}: further down and left is better. Bands: 95 % over {results['effort']['seeds']} seeds, "
-                              "cut at the plot's edge. A curve ends at the last number of samples that all seeds reached."))
+                              "cut at the plot's edge. Full points: numbers of samples that all seeds reached; open point: "
+                              "where the runs end, each with its own number."))
     svg = plots.save(plots.efficiency_plot(configurations, results["relative_to"]), folder, f"{name}-efficiency")
     text = verdict_text(configurations)
     parts += [figure(svg, f"Efficiency after {seconds:g} s; twice the efficiency is the same error in half the time. Bars: 95 % over seeds."), f'<p class="verdict">{escape(text[0].upper() + text[1:])}.</p>',
-              efficiency_table(configurations, seconds, results["relative_to"]), errors_table(configurations),
+              efficiency_table(configurations, seconds, results["relative_to"]),
+              footnote(configurations, results["effort"]["seeds"]), errors_table(configurations),
               HOW_TO_READ,
               f"<h3>Images after {seconds:g} s</h3>", viewer(scene, name, configurations, reference)]
     return "\n".join(parts)

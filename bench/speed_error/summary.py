@@ -40,6 +40,23 @@ def curve(runs):
              "relmse": estimates.geometric_mean([p["relmse"] for p in by_spp[spp]]).as_json()} for spp in complete]
 
 
+def end(runs, complete):
+    """Where the runs end, each with a number of samples of its own: the means of their last points. None if the curve's last point
+    is that of all runs already, or a run has no measured point."""
+    if not all(figures["error_curve"] for figures in runs):
+        return None
+    last = [figures["error_curve"][-1] for figures in runs]
+    if complete and {p["spp"] for p in last} == {complete[-1]["spp"]}:
+        return None
+    means = {key: estimates.geometric_mean([p[key] for p in last]) for key in ("spp", "seconds", "relmse")}
+    return {"spp": means["spp"].value, "seconds": means["seconds"].value, "relmse": means["relmse"].as_json()}
+
+
+def unmeasured_ends(runs, reference_relmse):
+    """How many runs have a last point that is no measurement, so that an earlier one stands for it."""
+    return sum(not measured(figures["error_curve"][-1], reference_relmse) for figures in runs)
+
+
 def error_at_time(runs, seconds):
     """Geometric mean over the runs; None if one did not last as long."""
     errors = []
@@ -146,6 +163,8 @@ def summarize(renderings, references, effort, relative_to):
             name: {
                 "peer": name in peers,
                 "curve": curves[name],
+                "end": end(found, curves[name]),
+                "unmeasured_ends": unmeasured_ends(all_points[name], noise),
                 "unmeasured": sum(len(f["error_curve"]) for f in all_points[name]) - sum(len(f["error_curve"]) for f in found),
                 "sample_spread": sample_spread(all_points[name]),
                 "at_spp": next(({"spp": spp, **p["relmse"]} for p in curves[name] if p["spp"] == spp), None),

@@ -20,6 +20,7 @@ for (const viewer of document.querySelectorAll(".viewer")) {
     over.style.clipPath = `inset(0 ${100 - slider.value}% 0 0)`;
     const name = slider.value >= 100 ? first.value : slider.value <= 0 ? second.value : `${first.value} | ${second.value}`;
     caption.textContent = name + (errors.checked ? `: signed error, too dark is blue, too bright is red` : "");
+    stage.setAttribute("aria-label", caption.textContent);
   };
   const flip = () => {
     slider.value = slider.value >= 50 ? 0 : 100;
@@ -45,7 +46,9 @@ for (const viewer of document.querySelectorAll(".viewer")) {
   const gallery = viewer.querySelector(".gallery");
   for (const [name, view] of Object.entries(views)) {
     const figure = gallery.appendChild(document.createElement("figure"));
-    for (const address of [view.picture, view.difference || blank]) figure.appendChild(new Image()).src = address;
+    for (const [address, kind] of [[view.picture, ""], [view.difference || blank, ": signed error"]]) {
+      Object.assign(figure.appendChild(new Image()), { src: address, alt: name + kind });
+    }
     figure.appendChild(document.createElement("figcaption")).textContent = name;
   }
   for (const control of [first, second, slider, errors]) control.addEventListener("input", show);

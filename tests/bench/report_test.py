@@ -37,9 +37,17 @@ def picture(level):
     return "data:image/png;base64," + base64.b64encode(png.getvalue()).decode()
 
 
+ENDS_BETWEEN, ENDS_UNMEASURED = 2, 4  # configurations whose runs end each elsewhere, or with an error that the reference's hides
+
+
 def rendering(scene, index, seed):
     points = [{"spp": n, "seconds": 0.1 * n, "cpu_seconds": 0.2 * n, "rmse": 0.1, "relmse": (1 + index / 10 + seed / 50) / n}
               for n in (1, 2, 4, 8, 16)]
+    if index == ENDS_BETWEEN:
+        n = 18 + seed
+        points.append({**points[-1], "spp": n, "seconds": 0.1 * n, "cpu_seconds": 0.2 * n, "relmse": points[-1]["relmse"] * 16 / n})
+    if index == ENDS_UNMEASURED and seed == 1:
+        points[-1]["relmse"] = 1e-5  # of a reference with 1e-4
     figures = {"error_curve": points, "camera_samples_per_second": 1e6}
     if seed == 1:
         figures["views"] = {"picture": picture(index / 20), "difference": picture(1 - index / 20), "flip": 0.1, "colors": COLORS,
@@ -119,6 +127,18 @@ class ReportTest(unittest.TestCase):
         self.assertEqual({path.suffix for path in (self.folder / "plots").iterdir()}, {".svg", ".png"})
         self.assertTrue((self.folder / "errors.csv").read_text().startswith("scene,configuration,seed,spp,"))
 
+    def test_ends_of_runs_that_no_curve_holds(self):
+        """An open point where each run ends with a number of samples of its own; none where all end alike."""
+        self.assertEqual(len(self.find(f"[id$='-end-{ENDS_BETWEEN}']")), 4)
+        self.assertEqual(len(self.find("[id*='-end-']")), 4 + 4, "and of the runs of which one ends with no measurement")
+
+    def test_efficiencies_of_an_earlier_point_are_marked(self):
+        name = CONFIGURATIONS[ENDS_UNMEASURED]
+        marked = [cell.text for cell in self.find("td:first-child") if cell.text.endswith(report.MARK)]
+        self.assertEqual(marked, 2 * [name + report.MARK])
+        self.assertEqual(len(self.find(".early")), 2)
+        self.assertIn(f"{name} (1 of 3 runs).", self.find(".early")[0].text)
+
     def shown(self, viewer):
         """Caption, and addresses of the images below and above."""
         images = [image.get_attribute("src") for image in viewer.find_elements("css selector", ".stage img")]
@@ -132,6 +152,7 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(set(widths), {16}, "all images are loaded")
         caption, under, over = self.shown(viewer)
         self.assertEqual((caption, under), ("default | reference", picture(0.5)))
+        self.assertEqual(stage.get_attribute("aria-label"), caption, "for those who do not see the images")
         stage.click()
         self.assertEqual(self.shown(viewer)[0], "reference")
         stage.click()
@@ -203,7 +224,8 @@ class ReportTest(unittest.TestCase):
             self.assertEqual(captions, ["reference", *CONFIGURATIONS, PEER])
             images = gallery.find_elements("css selector", "img")
             self.assertEqual([image.is_displayed() for image in images], 2 * len(captions) * [True])
-            self.assertEqual(images[3].get_attribute("src"), picture(1))  # the default's signed error
+            self.assertEqual(images[3].get_attribute("src"), picture(1))
+            self.assertEqual(images[3].get_attribute("alt"), "default: signed error")
         self.assertEqual(len(galleries), 2)
         widest = self.browser.execute_script(
             "return Math.max(...[...document.querySelectorAll('table, svg, .gallery img')].map(e => e.getBoundingClientRect().right))")
