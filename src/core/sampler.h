@@ -54,6 +54,7 @@ enum class Sequence {
 /// chance alone: 10^6 pixels with 100 keys each share one with a probability of 10^-5.
 class Sampler {
  public:
+  Sampler() : Sampler(0, 0, 0) {}
   Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample,
           Sequence sequence = Sequence::independent, std::uint32_t replicates = 1)
       : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
@@ -99,14 +100,40 @@ class Sampler {
       const float x = next();
       return {x, next()};
     }
+    return pair_of(reversed_index_, next_pair_keys());
+  }
+
+  // What next_2d() does with Sequence::sobol, in parts: the keys of a draw are those of all samples of a
+  // pixel (and replicate), so that who draws for many samples finds them once.
+
+  struct PairKeys {
+    std::uint32_t order, x, y;
+  };
+
+  /// Draws a pair, of which it returns the keys.
+  [[nodiscard]] PairKeys next_pair_keys() {
     const std::uint64_t keys = next_keys();
-    const std::uint32_t index = shuffled_index(reversed_index_, low(keys));
-    const std::uint64_t point = scrambled_sobol(index, high(keys), low(next_keys()));
+    return {low(keys), high(keys), low(next_keys())};
+  }
+
+  /// The pair of the sample with this index within its replicate.
+  [[nodiscard]] static Vec2 pair_of(std::uint32_t reversed_index, const PairKeys& keys) {
+    const std::uint32_t index = shuffled_index(reversed_index, keys.order);
+    const std::uint64_t point = scrambled_sobol(index, keys.x, keys.y);
     return {to_unit(high(point)), to_unit(low(point))};
   }
 
+  /// That of another sample of the same pixel and replicate after as many draws.
+  [[nodiscard]] Sampler of_sample(std::uint32_t reversed_index) const {
+    Sampler other = *this;
+    other.reversed_index_ = reversed_index;
+    return other;
+  }
+
  private:
-  static float to_unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+  static float to_unit(std::uint32_t bits) {
+    return static_cast<float>(static_cast<std::int32_t>(bits >> 8)) * 0x1p-24f;
+  }
   static double to_unit(std::uint32_t coarse, std::uint32_t fine) {
     return static_cast<double>((std::uint64_t{coarse} << 32 | fine) >> 11) * 0x1p-53;
   }

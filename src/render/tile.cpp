@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+
+#include "src/render/camera_rays.h"
 
 namespace lemma {
 namespace {
 
 constexpr int kTileSize = 16;
+static_assert(kTileSize <= PixelBlock::kSize);
 constexpr std::uint32_t kTimedSampleStride = 64;  // one sample of a row in so many is timed
 
 bool is_radiance(const Rgb& c) {
@@ -20,25 +24,22 @@ bool is_radiance(const Rgb& c) {
 class TileRow {
  public:
   TileRow(const Camera& camera, const RenderSettings& settings, const Tile& tile, int y, Film& film)
-      : camera_(camera), settings_(settings), tile_(tile), y_(y), film_(film) {}
+      : tile_(tile),
+        y_(y),
+        film_(film),
+        camera_rays_(camera, settings, tile.x, y, static_cast<std::size_t>(tile.width)) {}
 
   void render_sample(std::uint32_t sample, const World& world, const Integrator& integrator, Tracer& tracer,
                      TileResult& result) {
     const auto count = static_cast<std::size_t>(tile_.width);
     std::array<Ray, kTileSize> rays;
-    std::array<std::optional<Sampler>, kTileSize> random;
     std::array<std::optional<Hit>, kTileSize> hits;
-    const RenderSettings settings = settings_;  // so that what depends on them alone is found once
-    for (std::size_t i = 0; i < count; ++i) {
-      const int x = tile_.x + static_cast<int>(i);
-      random[i].emplace(settings.seed, pixel_index(x), sample, settings.sequence, settings.replicates);
-      const Vec2 u = random[i]->next_2d();
-      rays[i] = camera_.ray_through(static_cast<float>(x) + u.x, static_cast<float>(y_) + u.y);
-    }
+    camera_rays_.aim(sample, {rays.data(), count});
     tracer.closest_hits({rays.data(), count}, {hits.data(), count});
     for (std::size_t i = 0; i < count; ++i) {
       const int x = tile_.x + static_cast<int>(i);
-      const Rgb value = integrator.radiance(rays[i], hits[i], world, tracer, *random[i]);
+      Sampler random = camera_rays_.random(i);
+      const Rgb value = integrator.radiance(rays[i], hits[i], world, tracer, random);
       film_.prepare(x, y_, sample);
       if (is_radiance(value)) {
         film_.add(x, y_, sample, value);
@@ -49,22 +50,15 @@ class TileRow {
   }
 
  private:
-  /// Up to 65536 x 65536 pixels.
-  [[nodiscard]] std::uint32_t pixel_index(int x) const {
-    return static_cast<std::uint32_t>(y_) * static_cast<std::uint32_t>(camera_.width()) +
-           static_cast<std::uint32_t>(x);
-  }
-
   static void report_invalid(const InvalidSample& invalid, TileResult& result) {
     ++result.invalid_samples;
     if (result.first_invalid.size() < RenderResult::kReportedInvalid) result.first_invalid.push_back(invalid);
   }
 
-  const Camera& camera_;
-  const RenderSettings& settings_;
   const Tile& tile_;
   int y_;
   Film& film_;
+  CameraRays camera_rays_;
 };
 
 }  // namespace

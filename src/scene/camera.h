@@ -22,9 +22,12 @@ class Camera {
 
   /// The ray through (x, y) of the image plane, in pixels from the upper left corner; unit direction.
   [[nodiscard]] Ray ray_through(float x, float y) const {
-    const Vec3d direction = corner_ + step_x_ * static_cast<double>(x) + step_y_ * static_cast<double>(y);
-    return {.origin = eye_, .direction = Vec3(normalize(direction))};
+    return {.origin = eye_, .direction = direction_through(x, y)};
   }
+  [[nodiscard]] Vec3 direction_through(float x, float y) const {
+    return Vec3(normalize(corner_ + step_x_ * static_cast<double>(x) + step_y_ * static_cast<double>(y)));
+  }
+  [[nodiscard]] const Vec3& eye() const { return eye_; }
 
  private:
   Vec3 eye_;

@@ -1,0 +1,97 @@
+#include "src/render/camera_rays.h"
+
+#include "src/core/instruction_sets.h"
+
+// This file is compiled once for every instruction set, by including itself.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/render/camera_rays.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lemma {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// A plain loop without branches, that compilers turn into vector code of the instruction set.
+void aim(const Camera& camera, const PixelBlock& pixels, std::uint32_t reversed_index,
+         PixelBlock::Directions& directions) {
+  const Camera view = camera;  // so that writing directions cannot change it
+  for (std::size_t i = 0; i < PixelBlock::kSize; ++i) {
+    const Vec2 u = Sampler::pair_of(reversed_index, {pixels.order[i], pixels.key_x[i], pixels.key_y[i]});
+    const int x = pixels.x + static_cast<int>(i);
+    const Vec3 d = view.direction_through(static_cast<float>(x) + u.x, static_cast<float>(pixels.y) + u.y);
+    directions.x[i] = d.x, directions.y[i] = d.y, directions.z[i] = d.z;
+  }
+}
+
+}  // namespace
+
+AimRays aim_rays() {
+  return {aim, hwy::TargetName(HWY_TARGET)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lemma
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lemma {
+namespace {
+
+HWY_EXPORT(aim_rays);
+
+}  // namespace
+
+const std::vector<AimRays>& all_aim_rays() {
+  static const std::vector<AimRays> all =
+      for_every_instruction_set([] { return HWY_DYNAMIC_DISPATCH(aim_rays)(); });
+  return all;
+}
+
+CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings, int x, int y, std::size_t count)
+    : camera_(camera),
+      settings_(settings),
+      count_(count),
+      aim_(HWY_DYNAMIC_DISPATCH(aim_rays)().function),
+      replicate_(settings.replicates) {
+  pixels_.x = x, pixels_.y = y;
+}
+
+void CameraRays::aim(std::uint32_t sample, std::span<Ray> rays) {
+  if (settings_.sequence == Sequence::independent) return aim_independent(sample, rays);
+  if (const std::uint32_t replicate = sample % settings_.replicates; replicate != replicate_) {
+    replicate_ = replicate;
+    for (std::size_t i = 0; i < count_; ++i) {
+      random_[i] = start(i, sample);
+      pixels_.set(i, random_[i].next_pair_keys());
+    }
+  }
+  reversed_index_ = reverse_bits(sample / settings_.replicates);
+  PixelBlock::Directions to;
+  aim_(camera_, pixels_, reversed_index_, to);
+  for (std::size_t i = 0; i < count_; ++i) {
+    rays[i] = {.origin = camera_.eye(), .direction = {to.x[i], to.y[i], to.z[i]}};
+  }
+}
+
+void CameraRays::aim_independent(std::uint32_t sample, std::span<Ray> rays) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    random_[i] = start(i, sample);
+    const Vec2 u = random_[i].next_2d();
+    const int x = pixels_.x + static_cast<int>(i);
+    rays[i] = camera_.ray_through(static_cast<float>(x) + u.x, static_cast<float>(pixels_.y) + u.y);
+  }
+}
+
+/// Up to 65536 x 65536 pixels.
+Sampler CameraRays::start(std::size_t i, std::uint32_t sample) const {
+  const auto x = static_cast<std::uint32_t>(pixels_.x) + static_cast<std::uint32_t>(i);
+  const std::uint32_t pixel =
+      static_cast<std::uint32_t>(pixels_.y) * static_cast<std::uint32_t>(camera_.width()) + x;
+  return {settings_.seed, pixel, sample, settings_.sequence, settings_.replicates};
+}
+
+}  // namespace lemma
+#endif
