@@ -17,11 +17,10 @@ namespace {
 /// A plain loop without branches, that compilers turn into vector code of the instruction set.
 void aim(const Camera& camera, const PixelBlock& pixels, std::uint32_t reversed_index,
          PixelBlock::Directions& directions) {
-  const Camera view = camera;  // so that writing directions cannot change it
   for (std::size_t i = 0; i < PixelBlock::kSize; ++i) {
     const Vec2 u = Sampler::pair_of(reversed_index, {pixels.order[i], pixels.key_x[i], pixels.key_y[i]});
     const int x = pixels.x + static_cast<int>(i);
-    const Vec3 d = view.direction_through(static_cast<float>(x) + u.x, static_cast<float>(pixels.y) + u.y);
+    const Vec3 d = camera.direction_through(static_cast<float>(x) + u.x, static_cast<float>(pixels.y) + u.y);
     directions.x[i] = d.x, directions.y[i] = d.y, directions.z[i] = d.z;
   }
 }

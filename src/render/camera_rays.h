@@ -15,8 +15,7 @@ struct PixelBlock {
   using Values = std::array<float, kSize>;
 
   int x = 0, y = 0;  // of the first pixel
-  alignas(64) Words order{};
-  Words key_x{}, key_y{};
+  Words order{}, key_x{}, key_y{};
 
   void set(std::size_t i, const Sampler::PairKeys& keys) {
     order[i] = keys.order, key_x[i] = keys.x, key_y[i] = keys.y;
