@@ -147,8 +147,8 @@ HOW_TO_READ = """<p class="note">In brackets: 95 % confidence over seeds. Effici
 point of each run, paired by seed. By CPU time: of all threads, in which other work on the machine does not count. FLIP: the difference that an eye
 sees when both images are flipped, from 0 to 1. The mean against the reference: lemma compare --statistical; with few samples a
 pixel values are far from normal, and its alarms more than stated. FLIP, this test and the images are of the first seed. Slope: of the root of relMSE
-over samples; independent samples have -0.5. Sobol points are most even at powers of two: runs that end between these may have more error
-there than the curve goes on with. The verdict: by the value of the best one's advantage; NOT within 10 % only where all of its interval lies
+over samples; independent samples have -0.5. Rare bright samples hold much of relMSE in some
+scenes: a run's error rises where it meets one. The verdict: by the value of the best one's advantage; NOT within 10 % only where all of its interval lies
 above 1.1, else undecided. A run that ends up to a fifth before a time counts there with its last error; - where a run did not
 last as long or has no measured point before. * not reached by all runs: goes on with the error as one over the time.</p>"""
 
