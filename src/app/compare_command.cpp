@@ -171,19 +171,15 @@ CLI::App* add_compare_command(CLI::App& app, CompareOptions& o) {
   add_integer(*compare, "--largest", o.largest, 0, 1000000, "Pixels to show, of those that differ most");
   compare->add_flag("-q,--quiet", o.quiet, "Print nothing but errors");
   compare->footer(
-      "rmse: root of the mean of (I - R)^2; relmse: mean of (I - R)^2 / (R^2 + 0.01), trimmed: without the "
-      "0.1 % "
-      "of\nthe pixels that have most of it; smape: mean of 2 |I - R| / (|I| + |R|); flip: mean of FLIP, "
-      "HDR-FLIP "
-      "for\nradiance, at 67 pixels a degree. Pictures are compared by their values in [0, 1].\n\n"
-      "--json: the figures by these names; settings (what each figure depends on: epsilon 0.01 of relMSE, "
-      "part "
-      "left out,\npixels a degree, exposures in stops), limits (of --fail-above: figure, most, value, "
-      "exceeded), "
-      "statistical\n(different, false_alarm, block, z and limits), difference_image (of -o: file, of, and "
-      "for "
-      "pictures the scale and\nthe colour of each difference, sRGB from 0 to 1), mean_difference, "
-      "largest_differences.");
+      "rmse: root of the mean of (I - R)^2; relmse: mean of (I - R)^2 / (R^2 + 0.01), trimmed: without\n"
+      "the 0.1 % of the pixels that have most of it; smape: mean of 2 |I - R| / (|I| + |R|); flip: mean\n"
+      "of FLIP, HDR-FLIP for radiance, at 67 pixels a degree. Pictures are compared by their values in\n"
+      "[0, 1].\n\n"
+      "--json: the figures by these names; settings (what each depends on: relMSE's epsilon 0.01, the\n"
+      "part left out, pixels a degree, exposures in stops); limits (of --fail-above: figure, most,\n"
+      "value, exceeded); statistical (different, false_alarm, block, z and limits); difference_image\n"
+      "(of -o: file, of, and for pictures the scale and the colour of each difference, sRGB from 0 to\n"
+      "1); mean_difference; largest_differences.");
   return compare;
 }
 
