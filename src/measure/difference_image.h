@@ -6,8 +6,9 @@
 
 namespace lemma {
 
-/// Colours of differences from -1 to 1, evenly spaced: a diverging map of nearly even steps to the eye, white
-/// in the middle. Values in between are mixed.
+/// Colours of differences from -1 to 1, evenly spaced: a diverging map of nearly even steps to the eye that
+/// colour-blind people can read. Values in between are mixed. Source: RdBu of eleven classes, every second,
+/// with white in the middle (Cynthia Brewer, colorbrewer2.org).
 inline constexpr std::array<Rgb, 7> kDifferenceColors = {{{0.02f, 0.19f, 0.38f},
                                                           {0.26f, 0.58f, 0.76f},
                                                           {0.82f, 0.90f, 0.94f},
