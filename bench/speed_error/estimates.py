@@ -9,19 +9,6 @@ from dataclasses import dataclass
 
 import numpy
 
-# 97.5 % quantiles of Student's t for 1, 2, ... degrees of freedom; beyond, Cornish-Fisher's expansion of the normal's.
-_T = (12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281)
-_Z = 1.959964
-
-
-def t_quantile(freedom):
-    """The number that |t| exceeds in 5 % of all cases. Whole and broken degrees of freedom, at least 1."""
-    if freedom <= len(_T):
-        low = min(int(freedom), len(_T) - 1)
-        part = freedom - low
-        return _T[low - 1] * (1 - part) + _T[low] * part
-    return _Z + (_Z**3 + _Z) / (4 * freedom) + (5 * _Z**5 + 16 * _Z**3 + 3 * _Z) / (96 * freedom**2)
-
 
 def t_limit(chance, freedom):
     """The number that |t| exceeds with probability `chance`, of whole degrees of freedom (Abramowitz and Stegun 26.7.3 and
@@ -69,20 +56,6 @@ def geometric_mean(values, chance=0.05):
     """Geometric mean of runs, all above 0."""
     e = mean(numpy.log(values), chance)
     return Estimate(*(None if x is None else math.exp(x) for x in (e.value, e.low, e.high)))
-
-
-def ratio(values, baseline):
-    """Geometric mean of `values` over that of `baseline`, runs of which are independent of each other (Welch)."""
-    a, b = numpy.log(values), numpy.log(baseline)
-    centre = float(a.mean() - b.mean())
-    if len(a) < 2 or len(b) < 2:
-        return Estimate(math.exp(centre), None, None)
-    va, vb = a.var(ddof=1) / len(a), b.var(ddof=1) / len(b)
-    if va + vb == 0:
-        return Estimate(math.exp(centre), math.exp(centre), math.exp(centre))
-    freedom = (va + vb) ** 2 / (va**2 / (len(a) - 1) + vb**2 / (len(b) - 1))
-    half = t_quantile(freedom) * math.sqrt(va + vb)
-    return Estimate(math.exp(centre), math.exp(centre - half), math.exp(centre + half))
 
 
 def paired_ratio(values, baseline, chance=0.05):

@@ -78,7 +78,7 @@ def rendering_key(scene, configuration, seed, effort):
             effort.reference_spp, REFERENCE]
 
 
-def rendering(jobs, scene, configuration, seed, effort, image, scale=None):
+def rendering(jobs, scene, configuration, seed, effort, image, scale):
     """Renders for the time of the effort, with the error at every doubling of samples. Pictures are kept of the first seed, with
     the colours of `views`."""
 

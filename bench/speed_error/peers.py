@@ -38,7 +38,7 @@ def _error_point(point, reference, stem):
             "rmse": max(0.0, errors["mse_without_noise"]) ** 0.5, "relmse": errors["relmse_without_noise"]}
 
 
-def rendering(jobs, scene, seed, effort, threads, image, scale=None):
+def rendering(jobs, scene, seed, effort, threads, image, scale):
     """As measure.rendering, by the peer."""
 
     def work(stem):

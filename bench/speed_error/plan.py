@@ -66,7 +66,6 @@ class Effort:
     traversal_rounds: int
     peer_spp: int  # samples a pixel of other renderers' converged images
 
-
     def pixels(self):
         width, height = self.size.split("x")
         return int(width) * int(height)

@@ -10,7 +10,7 @@ import math
 import statistics
 
 import estimates
-from summary import FIRST_FITTED, measured
+from summary import FIRST_FITTED, measured, own_relmse
 
 ERROR, COST = "relMSE", "time of a sample"
 ALLOWED = {ERROR: 1.02, COST: 1.15}  # ratios to the baseline that compilers, the machine and its other work may explain
@@ -19,6 +19,11 @@ ALL = "all configurations"
 REGRESSED = 3  # exit code, as that of lemma when a comparison fails
 LEAST_SEEDS = 3
 EFFORT = ("size", "seconds", "reference_spp")  # a run of others has other references or other passes
+
+
+def allowed(what):
+    """The ratio up to which a row of scene_rows() may be worse."""
+    return ALLOWED[COST if what == COST else ERROR]
 
 
 def errors_at_samples(runs, reference_relmse):
@@ -46,7 +51,7 @@ def baseline_of(results):
     for run in sorted(results["renderings"], key=lambda run: run["seed"]):
         if not run.get("peer"):
             runs.setdefault(run["scene"], {}).setdefault(run["configuration"], []).append(run)
-    noise = {scene: results["references"][scene]["stats"]["estimated_error"]["relmse"]["value"] for scene in runs}
+    noise = {scene: own_relmse(results["references"][scene]) for scene in runs}
     return {**{key: results[key] for key in ("machine", "version", "commit", "date")},
             "effort": {key: results["effort"][key] for key in EFFORT},
             "figures": {scene: {name: {ERROR: errors_at_samples(found, noise[scene]), COST: costs(found, width * height)}
@@ -97,7 +102,7 @@ def compared(now, before):
     rows = []
     for scene in scenes:
         for name, what, ratio in scene_rows(now["figures"][scene], before["figures"][scene], JOINT_CHANCE / tests):
-            rows.append((scene, name, what, ratio, ratio.low > ALLOWED[COST if what == COST else ERROR]))
+            rows.append((scene, name, what, ratio, ratio.low > allowed(what)))
     return rows
 
 
@@ -113,5 +118,5 @@ def compare_with_baseline(now, before):
         print(f"  {text_of(row)}{'  worse' if row[-1] else ''}")
     bad = [row for row in rows if row[-1]]
     for row in bad:
-        print(f"worse than the baseline: {text_of(row)} times; up to {ALLOWED[COST if row[2] == COST else ERROR]} is allowed")
+        print(f"worse than the baseline: {text_of(row)} times; up to {allowed(row[2])} is allowed")
     return REGRESSED if bad else 0

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 import plots
-from summary import BUSY, NOISE_SHARE, TARGET, measured, verdict
+from summary import BUSY, NOISE_SHARE, TARGET, measured, own_relmse, verdict
 
 HERE = Path(__file__).resolve().parent
 
@@ -244,7 +244,7 @@ def write_csv(results, path):
         writer = csv.writer(file)
         writer.writerow(["scene", "configuration", "seed", "spp", "seconds", "cpu_seconds", "rmse", "relmse", "measured"])
         for r in results["renderings"]:
-            noise = results["references"][r["scene"]]["stats"]["estimated_error"]["relmse"]["value"]
+            noise = own_relmse(results["references"][r["scene"]])
             for p in r["figures"]["error_curve"]:
                 writer.writerow([r["scene"], r["configuration"], r["seed"], p["spp"], p["seconds"], p["cpu_seconds"], p["rmse"],
                                  p["relmse"], int(measured(p, noise))])

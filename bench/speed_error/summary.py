@@ -13,6 +13,11 @@ BUSY = 1.5  # samples of one configuration that differ by more than this between
 NEARLY = 1.25  # passes are whole: a run that ends this much before a time counts there with its last, larger error
 
 
+def own_relmse(reference):
+    """A reference's own estimated error."""
+    return reference["stats"]["estimated_error"]["relmse"]["value"]
+
+
 def measured(point, reference_relmse):
     """Whether a point's error, the reference's subtracted, is clearly more than what is uncertain of the subtraction."""
     return point["relmse"] > NOISE_SHARE * reference_relmse
@@ -154,7 +159,7 @@ def summarize(renderings, references, effort, relative_to):
     peers = {r["configuration"] for r in renderings if r.get("peer")}
     scenes = {}
     for scene, all_points in runs.items():
-        noise = references[scene]["stats"]["estimated_error"]["relmse"]["value"]
+        noise = own_relmse(references[scene])
         by_configuration = {name: [with_measured_points(figures, noise) for figures in found] for name, found in all_points.items()}
         default, baseline = next(iter(by_configuration.values())), by_configuration[relative_to]
         curves = {name: curve(found) for name, found in by_configuration.items()}

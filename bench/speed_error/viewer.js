@@ -4,7 +4,7 @@ for (const viewer of document.querySelectorAll(".viewer")) {
   const views = JSON.parse(viewer.querySelector("script").textContent);
   const [first, second] = viewer.querySelectorAll("select");
   const [under, over] = viewer.querySelectorAll(".stage img");
-  const blank = viewer.dataset.blank; // the reference differs nowhere from itself
+  for (const view of Object.values(views)) view.difference ||= viewer.dataset.blank; // the reference's from itself
   const [slider] = viewer.querySelectorAll("input[type=range]");
   const [errors] = viewer.querySelectorAll("input[type=checkbox]");
   const caption = viewer.querySelector(".caption");
@@ -12,14 +12,14 @@ for (const viewer of document.querySelectorAll(".viewer")) {
 
   const source = (select) => {
     const view = views[select.value];
-    return errors.checked ? view.difference || blank : view.picture;
+    return errors.checked ? view.difference : view.picture;
   };
   const show = () => {
     under.src = source(second);
     over.src = source(first);
     over.style.clipPath = `inset(0 ${100 - slider.value}% 0 0)`;
     const name = slider.value >= 100 ? first.value : slider.value <= 0 ? second.value : `${first.value} | ${second.value}`;
-    caption.textContent = name + (errors.checked ? `: signed error, too dark is blue, too bright is red` : "");
+    caption.textContent = name + (errors.checked ? ": signed error, too dark is blue, too bright is red" : "");
     stage.setAttribute("aria-label", caption.textContent);
   };
   const flip = () => {
@@ -46,7 +46,7 @@ for (const viewer of document.querySelectorAll(".viewer")) {
   const gallery = viewer.querySelector(".gallery");
   for (const [name, view] of Object.entries(views)) {
     const figure = gallery.appendChild(document.createElement("figure"));
-    for (const [address, kind] of [[view.picture, ""], [view.difference || blank, ": signed error"]]) {
+    for (const [address, kind] of [[view.picture, ""], [view.difference, ": signed error"]]) {
       Object.assign(figure.appendChild(new Image()), { src: address, alt: name + kind });
     }
     figure.appendChild(document.createElement("figcaption")).textContent = name;

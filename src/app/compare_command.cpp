@@ -34,11 +34,6 @@ std::optional<FigureLimit> parse_limit(const std::string& text) {
   return FigureLimit{name, *most};
 }
 
-std::optional<double> parse_scale(const std::string& text) {
-  const auto scale = parse_number<double>(text);
-  return scale && *scale > 0 && std::isfinite(*scale) ? scale : std::nullopt;
-}
-
 std::optional<double> parse_chance(const std::string& text) {
   const auto chance = parse_number<double>(text);
   return chance && *chance > 0 && *chance < 1 ? chance : std::nullopt;
@@ -104,9 +99,7 @@ Comparison compare(const CompareOptions& options, const ReadImage& image, const 
     if (options.statistical) c.test = test;
   }
   for (const FigureLimit& limit : options.limits) {
-    for (const auto& [name, value] : compare_figures(c)) {
-      if (name == limit.figure && value > limit.most) c.exceeded.push_back(limit);
-    }
+    if (figure_of(c, limit.figure) > limit.most) c.exceeded.push_back(limit);
   }
   return c;
 }
@@ -152,7 +145,7 @@ CLI::App* add_compare_command(CLI::App& app, CompareOptions& o) {
        .expected = "a number above 0",
        .help = "Difference of luminance at which the colours of -o are full, so that pictures can share "
                "a scale. Default: what 99 % of its pixels stay below"},
-      into(o.scale, parse_scale));
+      into(o.scale, parse_positive));
   add_file(*compare,
            {.flag = "--json", .type = "FILE.json", .expected = "a file's name", .help = "Write all as JSON"},
            [&o](const auto& path) { o.json = path; });

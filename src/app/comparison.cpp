@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -135,11 +136,9 @@ Json settings_json(const ReadImage& reference) {
 Json limits_json(const CompareOptions& options, const Comparison& c) {
   Json limits = Json::array();
   for (const FigureLimit& limit : options.limits) {
-    for (const auto& [name, value] : compare_figures(c)) {
-      if (name != limit.figure) continue;
-      limits.push_back(
-          {{"figure", name}, {"most", limit.most}, {"value", value}, {"exceeded", value > limit.most}});
-    }
+    const double value = figure_of(c, limit.figure);
+    limits.push_back(
+        {{"figure", limit.figure}, {"most", limit.most}, {"value", value}, {"exceeded", value > limit.most}});
   }
   return limits;
 }
@@ -171,6 +170,11 @@ NamedFigures compare_figures(const Comparison& c) {
           {"trimmed-relmse", c.errors.trimmed_relmse},
           {"smape", c.errors.smape},
           {"flip", c.flip}};
+}
+
+double figure_of(const Comparison& c, const std::string& name) {
+  const NamedFigures figures = compare_figures(c);
+  return std::ranges::find(figures, name, &NamedFigures::value_type::first)->second;
 }
 
 std::string comparison_text(const CompareOptions& options, const ReadImage& image, const ReadImage& reference,

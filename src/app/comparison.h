@@ -29,6 +29,9 @@ struct Comparison {
 using NamedFigures = std::vector<std::pair<std::string, double>>;
 [[nodiscard]] NamedFigures compare_figures(const Comparison& comparison);
 
+/// @param name  one of theirs
+[[nodiscard]] double figure_of(const Comparison& comparison, const std::string& name);
+
 /// For people: a few lines.
 [[nodiscard]] std::string comparison_text(const CompareOptions& options, const ReadImage& image,
                                           const ReadImage& reference, const Comparison& comparison);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -17,6 +18,12 @@ template <class T>
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// The whole text as a finite number above 0; nothing if it is none.
+[[nodiscard]] inline std::optional<double> parse_positive(const std::string& text) {
+  const auto number = parse_number<double>(text);
+  return number && std::isfinite(*number) && *number > 0 ? number : std::nullopt;
 }
 
 /// Puts what `parse` makes of a text into `target`, if it makes anything of it.

@@ -110,11 +110,6 @@ std::optional<std::uint32_t> parse_spp(const std::string& text) {
   return spp && *spp >= 1 && *spp <= RenderSettings::kMostSamples ? spp : std::nullopt;
 }
 
-std::optional<double> parse_positive(const std::string& text) {
-  const auto number = parse_number<double>(text);
-  return number && std::isfinite(*number) && *number > 0 ? number : std::nullopt;
-}
-
 void add_stop_options(CLI::App& app, RenderOptions& o) {
   add_value(app,
             {.flag = "--spp",

@@ -132,6 +132,7 @@ class Sampler {
 
  private:
   static float to_unit(std::uint32_t bits) {
+    // Signed, as SSE and AVX2 convert to float.
     return static_cast<float>(static_cast<std::int32_t>(bits >> 8)) * 0x1p-24f;
   }
   static double to_unit(std::uint32_t coarse, std::uint32_t fine) {

@@ -54,7 +54,7 @@ CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings, int
       settings_(settings),
       count_(count),
       aim_(HWY_DYNAMIC_DISPATCH(aim_rays)().function),
-      replicate_(settings.replicates) {
+      replicate_(settings.replicates) {  // that of no sample
   pixels_.x = x, pixels_.y = y;
 }
 

@@ -24,6 +24,7 @@ class Camera {
   [[nodiscard]] Ray ray_through(float x, float y) const {
     return {.origin = eye_, .direction = direction_through(x, y)};
   }
+  /// That ray's direction.
   [[nodiscard]] Vec3 direction_through(float x, float y) const {
     return Vec3(normalize(corner_ + step_x_ * static_cast<double>(x) + step_y_ * static_cast<double>(y)));
   }
