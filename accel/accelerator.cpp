@@ -10,6 +10,18 @@ void Accelerator::occluded_rays(std::span<const Ray> rays, std::span<std::uint8_
   for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]) ? 1 : 0;
 }
 
+void Accelerator::closest_hits(const RayWave& rays, std::size_t count, HitWave& hits) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::optional<Hit> hit = closest_hit(rays[i]);
+    hits.triangle[i] = HitWave::kNoTriangle;
+    if (hit) hits.set(i, *hit);
+  }
+}
+
+void Accelerator::occluded_rays(const RayWave& rays, std::size_t count, Wave<std::uint8_t>& blocked) const {
+  for (std::size_t i = 0; i < count; ++i) blocked[i] = occluded(rays[i]) ? 1 : 0;
+}
+
 // The table of backends: a new one is a file that defines make_NAME, and a line here.
 #define LEMMA_ACCELERATORS(entry)                             \
   entry(embree, "Embree's bounding volume hierarchy, ROBUST") \

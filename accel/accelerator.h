@@ -10,6 +10,7 @@
 #include "src/core/named.h"
 #include "src/core/ray.h"
 #include "src/core/triangle.h"
+#include "src/core/wave.h"
 
 namespace lemma {
 
@@ -37,6 +38,12 @@ class Accelerator {
   /// occluded for coherent rays.
   /// @param blocked  as many as rays; 1 where there is a hit, else 0
   virtual void occluded_rays(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+
+  /// closest_hit for the first `count` lanes, whose rays need not be alike.
+  virtual void closest_hits(const RayWave& rays, std::size_t count, HitWave& hits) const;
+
+  /// occluded for the first `count` lanes: 1 where there is a hit, else 0.
+  virtual void occluded_rays(const RayWave& rays, std::size_t count, Wave<std::uint8_t>& blocked) const;
 
   /// Memory that the structure holds [bytes].
   [[nodiscard]] virtual std::size_t memory_bytes() const = 0;

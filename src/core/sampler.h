@@ -7,6 +7,7 @@
 #include "src/core/named.h"
 #include "src/core/sobol.h"
 #include "src/core/vec.h"
+#include "src/core/wave.h"
 
 namespace lemma {
 
@@ -164,6 +165,12 @@ class Sampler {
   std::uint32_t reversed_index_ = 0;
   std::uint64_t keys_ = 0;
   Sequence sequence_;
+};
+
+/// Of each lane a Sampler::ChoicePair.
+struct ChoicePairWave {
+  Wave<double> x;
+  Wave<float> y;
 };
 
 }  // namespace lemma

@@ -40,6 +40,52 @@ struct LightQuery {
   std::vector<double> running_weights = {};
 };
 
+/// LightQuery of each lane.
+struct LightQueryWave {
+  VecWave x, n;
+  VecWave mirror;                    // of `reflection`, as are ...
+  Wave<float> diffuse, peak, width;  // ... these
+
+  [[nodiscard]] LightQuery operator[](std::size_t lane) const {
+    return {.x = x[lane],
+            .n = n[lane],
+            .reflection = {
+                .mirror = mirror[lane], .diffuse = diffuse[lane], .peak = peak[lane], .width = width[lane]}};
+  }
+};
+
+/// LightSample of each lane.
+struct LightSampleWave {
+  Wave<float> pdf;  // [sr^-1]; 0: there is no sample, and the rest means nothing
+  VecWave wi, to_light;
+  RgbWave radiance;
+  Wave<float> visible_until;
+  Wave<std::uint32_t> emitter;
+  Wave<const WholeLight*> whole;
+
+  void set(std::size_t lane, const LightSample& sample) {
+    pdf[lane] = sample.pdf.value;
+    wi.set(lane, sample.wi), to_light.set(lane, sample.to_light), radiance.set(lane, sample.radiance);
+    visible_until[lane] = sample.visible_until, emitter[lane] = sample.emitter, whole[lane] = sample.whole;
+  }
+};
+
+/// What a LightSampler does for single points, for the first `count` lanes of a wave: the same, bit for bit.
+class LightWaveSampler {
+ public:
+  LightWaveSampler() = default;
+  LightWaveSampler(const LightWaveSampler&) = delete;
+  LightWaveSampler& operator=(const LightWaveSampler&) = delete;
+  virtual ~LightWaveSampler() = default;
+
+  /// @param u  what LightSampler::sample() would draw, by Sampler::next_choice_pair() alone
+  virtual void sample_wave(const LightQueryWave& at, std::size_t count, const ChoicePairWave& u,
+                           LightSampleWave& samples) const = 0;
+
+  virtual void pdf_wave(const LightQueryWave& at, std::size_t count, const Wave<std::uint32_t>& emitter,
+                        const VecWave& y, Wave<float>& pdf) const = 0;
+};
+
 /// Chooses directions to emitters. The technique is: choose a light (an emitter, or emitters that are sampled
 /// as one), then a direction towards it; it counts only if what x sees there is that light. The density of a
 /// direction is therefore that of the one light it hits first, without a sum over lights behind it, and the
@@ -76,6 +122,9 @@ class LightSampler {
 
   /// The whole light that an emitter is a part of, or null.
   [[nodiscard]] virtual const WholeLight* whole_of(std::uint32_t) const { return nullptr; }
+
+  /// For waves of points, or null.
+  [[nodiscard]] virtual const LightWaveSampler* waves() const { return nullptr; }
 
   /// Density with which sample() returns the direction from at.x to the point `y` of the emitter.
   /// @param y  on the emitter, up to rounding
