@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 # Library header pattern, then the files allowed to include it.
 set(wrapped
     "<embree[34]/" "^accel/embree_[a-z]+\\.(h|cpp)$"
-    "<hwy/" "^(src/core/instruction_sets\\.h|accel/grid_[a-z]+-inl\\.h|(accel/grid_trace|src/lights/(weigh_emitters|weigh_wholes)|src/render/camera_rays)\\.cpp)$"
+    "<hwy/" "^(src/core/instruction_sets\\.h|accel/grid_[a-z]+-inl\\.h|(accel/grid_trace|src/lights/(weigh_emitters|weigh_wholes)|src/render/camera_rays|(accel|integrators|src/[a-z]+)/[a-z_]+_wave)\\.cpp)$"
     "<pugixml" "^src/scene/"
     "<tiny_obj_loader" "^tests/"
     "<OpenImageIO/" "^src/(render|shading)/"

@@ -7,7 +7,6 @@
 #include "src/core/named.h"
 #include "src/core/sobol.h"
 #include "src/core/vec.h"
-#include "src/core/wave.h"
 
 namespace lemma {
 
@@ -70,8 +69,7 @@ class Sampler {
   /// Uniform 32-bit integer: for choices among many, where 24 bits are too few.
   [[nodiscard]] std::uint32_t next_bits() {
     if (sequence_ == Sequence::independent) return next_independent();
-    const std::uint64_t keys = next_keys();
-    return scrambled_sobol_x(shuffled_index(reversed_index_, low(keys)), high(keys));
+    return bits_of(reversed_index_, next_keys());
   }
 
   /// Uniform in [0, 1): a multiple of 2^-24, never 1.
@@ -91,9 +89,7 @@ class Sampler {
       return {to_unit(coarse, fine), next()};
     }
     const std::uint64_t keys = next_keys(), more = next_keys();
-    const std::uint32_t index = shuffled_index(reversed_index_, low(keys));
-    const std::uint64_t point = scrambled_sobol(index, high(keys), low(more));
-    return {to_unit(high(point), high(more)), to_unit(low(point))};
+    return choice_pair_of(reversed_index_, keys, more);
   }
 
   [[nodiscard]] Vec2 next_2d() {
@@ -104,24 +100,38 @@ class Sampler {
     return pair_of(reversed_index_, next_pair_keys());
   }
 
-  // What next_2d() does with Sequence::sobol, in parts: the keys of a draw are those of all samples of a
-  // pixel (and replicate), so that who draws for many samples finds them once.
+  // What is done with Sequence::sobol, in parts, for who draws for many samples. The keys of a draw, one word
+  // or two for a pair, are those of all samples of a pixel (and replicate): successive outputs of SplitMix64.
 
   struct PairKeys {
     std::uint32_t order, x, y;
   };
+  [[nodiscard]] static PairKeys pair_keys(std::uint64_t keys, std::uint64_t more) {
+    return {low(keys), high(keys), low(more)};
+  }
 
   /// Draws a pair, of which it returns the keys.
   [[nodiscard]] PairKeys next_pair_keys() {
     const std::uint64_t keys = next_keys();
-    return {low(keys), high(keys), low(next_keys())};
+    return pair_keys(keys, next_keys());
   }
 
-  /// The pair of the sample with this index within its replicate.
+  /// next() of the sample with this index within its replicate.
+  [[nodiscard]] static float unit_of(std::uint32_t reversed_index, std::uint64_t keys) {
+    return to_unit(bits_of(reversed_index, keys));
+  }
+  /// next_2d()
   [[nodiscard]] static Vec2 pair_of(std::uint32_t reversed_index, const PairKeys& keys) {
     const std::uint32_t index = shuffled_index(reversed_index, keys.order);
     const std::uint64_t point = scrambled_sobol(index, keys.x, keys.y);
     return {to_unit(high(point)), to_unit(low(point))};
+  }
+  /// next_choice_pair()
+  [[nodiscard]] static ChoicePair choice_pair_of(std::uint32_t reversed_index, std::uint64_t keys,
+                                                 std::uint64_t more) {
+    const std::uint32_t index = shuffled_index(reversed_index, low(keys));
+    const std::uint64_t point = scrambled_sobol(index, high(keys), low(more));
+    return {to_unit(high(point), high(more)), to_unit(low(point))};
   }
 
   /// That of another sample of the same pixel and replicate after as many draws.
@@ -132,15 +142,21 @@ class Sampler {
   }
 
  private:
+  friend class SamplerWave;
+
+  // Signed, as SSE and AVX2 convert to floating point.
   static float to_unit(std::uint32_t bits) {
-    // Signed, as SSE and AVX2 convert to float.
     return static_cast<float>(static_cast<std::int32_t>(bits >> 8)) * 0x1p-24f;
   }
   static double to_unit(std::uint32_t coarse, std::uint32_t fine) {
-    return static_cast<double>((std::uint64_t{coarse} << 32 | fine) >> 11) * 0x1p-53;
+    const double upper = static_cast<std::int32_t>(coarse ^ 0x80000000u) + 0x1p31;
+    return (upper * 0x1p21 + static_cast<std::int32_t>(fine >> 11)) * 0x1p-53;
   }
   static std::uint32_t low(std::uint64_t keys) { return static_cast<std::uint32_t>(keys); }
   static std::uint32_t high(std::uint64_t keys) { return static_cast<std::uint32_t>(keys >> 32); }
+  static std::uint32_t bits_of(std::uint32_t reversed_index, std::uint64_t keys) {
+    return scrambled_sobol_x(shuffled_index(reversed_index, low(keys)), high(keys));
+  }
 
   std::uint32_t next_independent() {
     if (used_ == 4) {
@@ -165,12 +181,6 @@ class Sampler {
   std::uint32_t reversed_index_ = 0;
   std::uint64_t keys_ = 0;
   Sequence sequence_;
-};
-
-/// Of each lane a Sampler::ChoicePair.
-struct ChoicePairWave {
-  Wave<double> x;
-  Wave<float> y;
 };
 
 }  // namespace lemma

@@ -9,7 +9,7 @@
 #include "src/core/named.h"
 #include "src/core/pdf.h"
 #include "src/core/reflection.h"
-#include "src/core/sampler.h"
+#include "src/core/sampler_wave.h"
 #include "src/lights/emitter.h"
 #include "src/lights/whole_light.h"
 

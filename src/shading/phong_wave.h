@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "src/core/sampler.h"
+#include "src/core/sampler_wave.h"
 #include "src/core/wave.h"
 #include "src/shading/phong.h"
 

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "src/core/sampler.h"
+#include "src/core/wave.h"
+
+namespace lemma {
+
+/// Of each lane a Sampler::ChoicePair.
+struct ChoicePairWave {
+  Wave<double> x;
+  Wave<float> y;
+};
+
+/// The random numbers of a wave: a Sampler for each lane, all of one sequence and of samples of one index.
+/// The first `count` lanes draw what their samplers would.
+class SamplerWave {
+ public:
+  /// Draws for all lanes with Sequence::sobol, compiled for one instruction set.
+  struct Draws {
+    using Keys = Wave<std::uint64_t>;
+    void (*units)(Keys& keys, std::uint32_t reversed_index, std::size_t count,
+                  const Wave<std::uint32_t>& wanted, Wave<float>& u);
+    void (*pairs)(Keys& keys, std::uint32_t reversed_index, std::size_t count, ChoicePairWave& u);
+    void (*choice_pairs)(Keys& keys, std::uint32_t reversed_index, std::size_t count, ChoicePairWave& u);
+    const char* name;  // "AVX2"
+  };
+
+  SamplerWave();
+  explicit SamplerWave(const Draws& draws) : draws_(draws) {}
+
+  void set(std::size_t lane, const Sampler& sampler);
+  [[nodiscard]] Sampler operator[](std::size_t lane) const;
+
+  /// Lane k becomes what lane kept[k] was; kept[k] grows with k.
+  void keep(const Wave<std::uint32_t>& kept, std::size_t count);
+
+  /// Sampler::next() of the lanes where `wanted` is not 0; the others draw nothing and u means nothing.
+  void draw(std::size_t count, const Wave<std::uint32_t>& wanted, Wave<float>& u);
+  /// Sampler::next_2d()
+  void draw_pairs(std::size_t count, ChoicePairWave& u);
+  /// Sampler::next_choice_pair()
+  void draw_choice_pairs(std::size_t count, ChoicePairWave& u);
+
+ private:
+  Draws draws_;
+  Sequence sequence_ = Sequence::sobol;
+  std::uint32_t reversed_index_ = 0;
+  Wave<std::uint64_t> keys_;                   // with Sequence::sobol
+  std::array<Sampler, kWaveSize> samplers_{};  // else
+};
+
+/// Those that this machine can run, the fastest first. All draw the same numbers, bit for bit.
+[[nodiscard]] const std::vector<SamplerWave::Draws>& all_sampler_wave_draws();
+
+}  // namespace lemma

@@ -1,0 +1,59 @@
+#include "src/core/sampler_wave.h"
+
+#include <gtest/gtest.h>
+
+namespace lemma {
+namespace {
+
+constexpr std::size_t kSomeCounts[] = {1, 15, 16, 17, kWaveSize};
+
+/// Draws of every kind, some lanes left out or none, against samplers by themselves.
+void expect_draws_of_samplers(SamplerWave& wave, Sequence sequence, std::size_t count) {
+  std::vector<Sampler> single;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    single.emplace_back(5, 1000 + 7 * i, 77, sequence, 1);
+    wave.set(i, single.back());
+  }
+  Wave<float> u;
+  ChoicePairWave pairs;
+  Wave<std::uint32_t> wanted, kept;
+  for (int round = 0; round < 3; ++round) {
+    wave.draw_pairs(count, pairs);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec2 pair = single[i].next_2d();
+      ASSERT_EQ(pairs.x[i], pair.x);
+      ASSERT_EQ(pairs.y[i], pair.y);
+      wanted[i] = i % 3 == 0 ? 1 : 0;
+    }
+    wave.draw(count, wanted, u);
+    for (std::size_t i = 0; i < count; i += 3) ASSERT_EQ(u[i], single[i].next());
+    wave.draw_choice_pairs(count, pairs);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Sampler::ChoicePair pair = single[i].next_choice_pair();
+      ASSERT_EQ(pairs.x[i], pair.x);
+      ASSERT_EQ(pairs.y[i], pair.y);
+    }
+    // Every second lane goes on.
+    for (std::uint32_t i = 0; i < (count + 1) / 2; ++i) kept[i] = 2 * i, single[i] = single[2 * i];
+    count = (count + 1) / 2;
+    wave.keep(kept, count);
+  }
+  Sampler last = wave[count - 1];
+  ASSERT_EQ(last.next(), single[count - 1].next());
+}
+
+TEST(SamplerWave, DrawsWhatSamplersDraw) {
+  ASSERT_FALSE(all_sampler_wave_draws().empty());
+  for (const SamplerWave::Draws& draws : all_sampler_wave_draws()) {
+    SCOPED_TRACE(draws.name);
+    for (const std::size_t count : kSomeCounts) {
+      for (const Sequence sequence : {Sequence::sobol, Sequence::independent}) {
+        SamplerWave wave(draws);
+        expect_draws_of_samplers(wave, sequence, count);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lemma
