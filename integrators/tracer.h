@@ -47,6 +47,16 @@ class Tracer {
     timed([&] { accel_.closest_hits(rays, hits); });
   }
 
+  void closest_hits(const RayWave& rays, std::size_t count, HitWave& hits) {
+    counts.rays += count;
+    timed([&] { accel_.closest_hits(rays, count, hits); });
+  }
+
+  void occluded_rays(const RayWave& rays, std::size_t count, Wave<std::uint8_t>& blocked) {
+    counts.rays += count;
+    timed([&] { accel_.occluded_rays(rays, count, blocked); });
+  }
+
   class Timing {
    public:
     Timing(Tracer& tracer, bool on) : tracer_(tracer), start_(__rdtsc()) { tracer_.timing_ = on; }

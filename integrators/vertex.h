@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "src/core/error_bound.h"
+#include "integrators/surface_point.h"
 #include "src/core/frame.h"
 #include "src/core/hit.h"
 #include "src/core/sampler.h"
@@ -31,12 +31,10 @@ class Vertex {
  public:
   Vertex(const Scene& scene, const Ray& ray, const Hit& hit)
       : scene_(scene), hit_(hit), material_(find_material(scene, hit)), brdf_(material_) {
-    const Triangle& triangle = scene.triangles[hit.triangle];
-    Vec3d normal = normalize(area_vector(triangle));
-    behind_ = dot(normal, Vec3d(ray.direction)) > 0;
-    if (behind_) normal = -normal;
-    origin_ = offset_origin(point_at(triangle, hit.b1, hit.b2), normal, triangle);
-    geometric_normal_ = Vec3(normal);
+    const SurfacePoint point(scene.triangles[hit.triangle], hit.b1, hit.b2, ray.direction);
+    behind_ = point.behind;
+    origin_ = point.origin;
+    geometric_normal_ = Vec3(point.normal);
     frame_ = frame_around(find_shading_normal(scene, ray, hit));
     wo_ = frame_.to_local(-ray.direction);
   }

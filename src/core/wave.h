@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,12 +24,13 @@ inline constexpr std::size_t kWaveStep = 16;   // divides kWaveSize; the lanes o
   return (count + kWaveStep - 1) / kWaveStep * kWaveStep;
 }
 
-/// A value of each lane.
+/// A value of each lane. A plain array: through the references of std::array GCC 12 loses its type in loops,
+/// and does not make vector code of them.
 template <class T>
 struct alignas(64) Wave {
-  std::array<T, kWaveSize> values{};
+  T values[kWaveSize]{};
 
-  [[nodiscard]] const T& operator[](std::size_t lane) const { return values[lane]; }
+  [[nodiscard]] T operator[](std::size_t lane) const { return values[lane]; }
   [[nodiscard]] T& operator[](std::size_t lane) { return values[lane]; }
 };
 
