@@ -11,6 +11,7 @@ struct BrdfSamples {
   static float brdf_weight(PdfSolidAngle, const LightPdf&) {
     return 1;
   }
+  static Weighting weighting() { return Weighting::brdf; }
 };
 
 template <Model M>

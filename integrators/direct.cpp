@@ -13,6 +13,7 @@ struct LightSamples {
   static float brdf_weight(PdfSolidAngle, const LightPdf&) {
     return 0;
   }
+  static Weighting weighting() { return Weighting::lights; }
 };
 
 template <Model M>

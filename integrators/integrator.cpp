@@ -2,6 +2,31 @@
 
 namespace lemma {
 
+namespace {
+
+class PathByPath final : public WaveIntegrator {
+ public:
+  PathByPath(const Integrator& integrator, const World& world) : integrator_(integrator), world_(world) {}
+
+  void radiances(const RayWave& rays, const HitWave& first, std::size_t count, Tracer& tracer,
+                 std::span<Sampler> random, RgbWave& radiance) override {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::optional<Hit> hit = first.is_hit(i) ? std::optional(first[i]) : std::nullopt;
+      radiance.set(i, integrator_.radiance(rays[i], hit, world_, tracer, random[i]));
+    }
+  }
+
+ private:
+  const Integrator& integrator_;
+  const World world_;
+};
+
+}  // namespace
+
+std::unique_ptr<WaveIntegrator> Integrator::waves(const World& world) const {
+  return std::make_unique<PathByPath>(*this, world);
+}
+
 // The table of integrators: a new one is a file that defines make_ID, and a line here.
 #define LEMMA_INTEGRATORS(entry)                                                                            \
   entry(mis, "mis",                                                                                         \

@@ -24,6 +24,20 @@ struct World {
   const LightSampler& lights;
 };
 
+/// Does for waves of camera rays what an Integrator does for single ones; one a thread, for its memory.
+class WaveIntegrator {
+ public:
+  WaveIntegrator() = default;
+  WaveIntegrator(const WaveIntegrator&) = delete;
+  WaveIntegrator& operator=(const WaveIntegrator&) = delete;
+  virtual ~WaveIntegrator() = default;
+
+  /// Integrator::radiance() of the first `count` lanes.
+  /// @param random  of each lane, all of samples of one index; used up
+  virtual void radiances(const RayWave& rays, const HitWave& first, std::size_t count, Tracer& tracer,
+                         std::span<Sampler> random, RgbWave& radiance) = 0;
+};
+
 /// Estimates the radiance along a camera ray. Paths end at emitters, which do not reflect (the report's
 /// rule), unless options say otherwise.
 class Integrator {
@@ -40,6 +54,10 @@ class Integrator {
   /// @param random  the numbers of this sample
   [[nodiscard]] virtual Rgb radiance(const Ray& ray, const std::optional<Hit>& first, const World& world,
                                      Tracer& tracer, Sampler& random) const = 0;
+
+  /// The same, bit for bit, for waves: path by path, by default.
+  /// @return who keeps references to the integrator and the world
+  [[nodiscard]] virtual std::unique_ptr<WaveIntegrator> waves(const World& world) const;
 
   /// The same, bit for bit, while the recorder is told all that happens on the path: nothing, by default.
   [[nodiscard]] virtual Rgb explain(const Ray& ray, const std::optional<Hit>& first, const World& world,

@@ -20,6 +20,9 @@ class WeightedSamples {
   [[nodiscard]] float brdf_weight(PdfSolidAngle brdf, const LightPdf& light) const {
     return mis_weight(heuristic_, brdf, light());
   }
+  [[nodiscard]] Weighting weighting() const {
+    return heuristic_ == Heuristic::balance ? Weighting::balance : Weighting::power;
+  }
 
  private:
   Heuristic heuristic_;

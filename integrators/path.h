@@ -3,6 +3,7 @@
 #include "integrators/emission.h"
 #include "integrators/observed.h"
 #include "integrators/path_end.h"
+#include "integrators/path_wave.h"
 #include "integrators/vertex.h"
 
 namespace lemma {
@@ -15,6 +16,7 @@ namespace lemma {
 ///   light_weight(light, brdf)        of a light sample, given both densities of its direction
 ///   brdf_weight(brdf, light)         of an emitter met at depth > 1; light() gives the density of light
 ///   sampling
+///   weighting()                      these weights by name
 template <Model M, class Technique>
 class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Technique>> {
  public:
@@ -61,6 +63,11 @@ class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Techniq
     }
     if (!hit) observer.end(PathEnd::escaped);
     return radiance;
+  }
+
+  std::unique_ptr<WaveIntegrator> waves(const World& world) const override {
+    return std::make_unique<PathWave>(
+        WaveTechnique{options_, technique_.weighting(), world.scene.needs.model}, world);
   }
 
  private:

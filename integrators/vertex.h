@@ -56,9 +56,7 @@ class Vertex {
 
   /// Whether light goes on in single directions only, which no light sample finds.
   [[nodiscard]] bool is_glass() const {
-    if constexpr (M.glass) {
-      return !scene_.glass.empty() && scene_.glass[material_index(scene_, hit_)].ior != 1;
-    }
+    if constexpr (M.glass) return lemma::is_glass(scene_, hit_.triangle);
     return false;
   }
 
@@ -81,24 +79,13 @@ class Vertex {
   }
 
  private:
-  static std::uint32_t material_index(const Scene& scene, const Hit& hit) {
-    return scene.facets[hit.triangle].material;
-  }
-
   using OwnMaterial = std::conditional_t<M.textures, Material, const Material&>;
 
-  /// The material, with the colour of its texture if it has one.
   static OwnMaterial find_material(const Scene& scene, const Hit& hit) {
-    const std::uint32_t index = material_index(scene, hit);
     if constexpr (M.textures) {
-      if (scene.texture_of.empty()) return scene.materials[index];
-      const auto& [texture, tint] = scene.texture_of[index];
-      if (texture == kNoTexture) return scene.materials[index];
-      const auto& [uv0, uv1, uv2] = scene.texcoords[hit.triangle];
-      const Vec2 uv = uv0 * (1 - hit.b1 - hit.b2) + uv1 * hit.b1 + uv2 * hit.b2;
-      return with_kd(scene.materials[index], tint * scene.textures[texture].at(uv));
+      return textured_material(scene, hit);
     } else {
-      return scene.materials[index];
+      return scene.materials[material_index(scene, hit)];
     }
   }
 
@@ -116,11 +103,7 @@ class Vertex {
   [[nodiscard]] Vec3 find_shading_normal(const Scene& scene, const Ray& ray, const Hit& hit) const {
     if constexpr (!M.smooth_normals) return geometric_normal_;
     const auto& [n0, n1, n2] = scene.normals[hit.triangle];
-    const Vec3 n = n0 * (1 - hit.b1 - hit.b2) + n1 * hit.b1 + n2 * hit.b2;
-    const float size = length(n);
-    // Opposed normals can cancel; what is left then is rounding.
-    if (!(size > 1e-6f)) return geometric_normal_;
-    return n * (std::copysign(1.0f, -dot(n, ray.direction)) / size);
+    return smooth_normal({n0, n1, n2}, hit.b1, hit.b2, ray.direction, geometric_normal_);
   }
 
   /// A mirrored or refracted direction about the shading normal; about the geometric one where the shading

@@ -1,6 +1,5 @@
 #include "integrators/vertex_wave.h"
 
-#include "integrators/surface_point.h"
 #include "src/core/instruction_sets.h"
 
 // This file is compiled once for every instruction set, by including itself.
@@ -17,11 +16,19 @@ namespace {
 
 // Plain loops without branches, that compilers turn into vector code of the instruction set.
 
+template <bool kSmooth>
 void find(const TouchWave& touches, std::size_t count, VertexWave& vertices) {
   for (std::size_t i = 0; i < wave_end(count); ++i) {
     const Vec3 direction = touches.direction[i];
-    const SurfacePoint point(touches.triangle(i), touches.b1[i], touches.b2[i], direction);
-    const Frame frame = frame_around(Vec3(point.normal));
+    const float b1 = touches.b1[i], b2 = touches.b2[i];
+    const SurfacePoint point(touches.triangle(i), b1, b2, direction);
+    const Vec3 geometric(point.normal);
+    Vec3 normal = geometric;
+    if constexpr (kSmooth) {
+      normal = smooth_normal(touches.normals(i), b1, b2, direction, geometric);
+      vertices.geometric.set(i, geometric);
+    }
+    const Frame frame = frame_around(normal);
     const Vec3 wo = frame.to_local(-direction);
     vertices.query.x.set(i, point.origin);
     vertices.query.n.set(i, frame.n);
@@ -40,10 +47,15 @@ void to_world(const VertexWave& vertices, const VecWave& w, std::size_t count, V
   for (std::size_t i = 0; i < wave_end(count); ++i) world.set(i, vertices.frame(i).to_world(w[i]));
 }
 
+void above(const VertexWave& vertices, const VecWave& w, std::size_t count, Wave<std::uint32_t>& is_above) {
+  for (std::size_t i = 0; i < wave_end(count); ++i)
+    is_above[i] = dot(w[i], vertices.geometric[i]) > 0 ? 1 : 0;
+}
+
 }  // namespace
 
 VertexStages vertex_stages() {
-  return {find, to_local, to_world, hwy::TargetName(HWY_TARGET)};
+  return {find<false>, find<true>, to_local, to_world, above, hwy::TargetName(HWY_TARGET)};
 }
 
 }  // namespace HWY_NAMESPACE

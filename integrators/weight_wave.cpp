@@ -47,7 +47,10 @@ void light(Weighting weighting, const LightSampleWave& samples, const BrdfValueW
 void emission(Weighting weighting, const Wave<float>& pdf_brdf, const Wave<float>& pdf_light,
               std::size_t count, Wave<float>& weight) {
   with_weights(weighting, Weighting::brdf, [&](const auto& weigh) {
-    for (std::size_t i = 0; i < wave_end(count); ++i) weight[i] = weigh({pdf_brdf[i]}, {pdf_light[i]});
+    for (std::size_t i = 0; i < wave_end(count); ++i) {
+      const float by_pdf = weigh({pdf_brdf[i]}, {pdf_light[i]});
+      weight[i] = std::isinf(pdf_brdf[i]) ? 1.0f : by_pdf;
+    }
   });
 }
 

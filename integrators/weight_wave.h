@@ -34,7 +34,8 @@ struct WeightStages {
   /// @param local  directions of the samples in the vertices' frames
   void (*light)(Weighting weighting, const LightSampleWave& samples, const BrdfValueWave& brdf,
                 const VecWave& local, const RgbWave& throughput, std::size_t count, ReflectedWave& reflected);
-  /// The weight of emitters met by BRDF samples of density pdf_brdf, where light samples have pdf_light.
+  /// The weight of emitters met by BRDF samples of density pdf_brdf, where light samples have pdf_light; 1
+  /// through glass, whose density is infinite.
   void (*emission)(Weighting weighting, const Wave<float>& pdf_brdf, const Wave<float>& pdf_light,
                    std::size_t count, Wave<float>& weight);
   /// Multiplies the throughput and finds the probability to go on; alive are lanes with a sample.

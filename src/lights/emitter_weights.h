@@ -14,6 +14,9 @@ class EmitterWeights {
 
   EmitterWeights(std::span<const Emitter> emitters, Measure measure);
 
+  /// Makes room for what prepare() finds.
+  void reserve(LightQuery& at) const { at.running_weights.reserve(blocks_.size()); }
+
   /// Finds the sums that the choice and its probability need.
   void prepare(LightQuery& at) const;
 

@@ -98,6 +98,9 @@ class LightSampler {
   LightSampler& operator=(const LightSampler&) = delete;
   virtual ~LightSampler() = default;
 
+  /// Makes room in a query for what prepare() finds, so that it needs no memory. None, by default.
+  virtual void reserve(LightQuery&) const {}
+
   /// Finds what else the query holds. Nothing, by default.
   virtual void prepare(LightQuery&) const {}
 

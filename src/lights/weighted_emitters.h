@@ -16,6 +16,7 @@ class WeightedEmitters final : public LightSampler {
   explicit WeightedEmitters(std::span<const Emitter> emitters)
       : emitters_(emitters), weights_(emitters, View::kMeasure) {}
 
+  void reserve(LightQuery& at) const override { weights_.reserve(at); }
   void prepare(LightQuery& at) const override { weights_.prepare(at); }
 
   std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const override {

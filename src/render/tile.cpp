@@ -11,54 +11,90 @@ namespace lemma {
 namespace {
 
 constexpr int kTileSize = 16;
-static_assert(kTileSize <= PixelBlock::kSize);
-constexpr std::uint32_t kTimedSampleStride = 64;  // one sample of a row in so many is timed
+static_assert(kTileSize <= PixelBlock::kSize && kTileSize * kTileSize <= kWaveSize);
+constexpr std::uint32_t kTimedSampleStride = 64;  // one sample of a tile in so many is timed
 
 bool is_radiance(const Rgb& c) {
   constexpr float most = std::numeric_limits<float>::max();
   return c.r >= 0 && c.r <= most && c.g >= 0 && c.g <= most && c.b >= 0 && c.b <= most;  // no NaN is
 }
 
-/// Renders the samples of one row of a tile: one sample of every pixel at a time, so that the camera rays can
-/// be traced together.
-class TileRow {
+/// Renders the samples of a tile: one sample of every pixel at a time, as a wave.
+class TileSamples {
  public:
-  TileRow(const Camera& camera, const RenderSettings& settings, const Tile& tile, int y, Film& film)
+  TileSamples(const World& world, const Integrator& integrator, const Camera& camera,
+              const RenderSettings& settings, const Tile& tile, Film& film)
       : tile_(tile),
-        y_(y),
+        width_(static_cast<std::size_t>(tile.width)),
         film_(film),
-        camera_rays_(camera, settings, tile.x, y, static_cast<std::size_t>(tile.width)) {}
+        waves_(integrator.waves(world)),
+        tracer_(world.accel) {
+    for (int y = tile.y; y < tile.y + tile.height; ++y)
+      rows_.emplace_back(camera, settings, tile.x, y, width_);
+  }
 
-  void render_sample(std::uint32_t sample, const World& world, const Integrator& integrator, Tracer& tracer,
-                     TileResult& result) {
-    const auto count = static_cast<std::size_t>(tile_.width);
+  void render(std::uint32_t sample) {
+    // Tiles start at different samples, so that an image of few samples is timed as well.
+    const bool timed =
+        (sample + static_cast<std::uint32_t>(tile_.x + tile_.y) / kTileSize) % kTimedSampleStride == 0;
+    const Tracer::Timing timing(tracer_, timed);
+    for (std::size_t row = 0; row < rows_.size(); ++row) aim(row, sample);
+    waves_->radiances(rays_, hits_, rows_.size() * width_, tracer_, random_, radiance_);
+    for (std::size_t row = 0; row < rows_.size(); ++row) add(row, sample);
+  }
+
+  [[nodiscard]] TileResult result() {
+    result_.counts = tracer_.counts;
+    return std::move(result_);
+  }
+
+ private:
+  /// The rays of a row are traced together: as they start at one point and are neighbours, that is fast.
+  void aim(std::size_t row, std::uint32_t sample) {
     std::array<Ray, kTileSize> rays;
     std::array<std::optional<Hit>, kTileSize> hits;
-    camera_rays_.aim(sample, {rays.data(), count});
-    tracer.closest_hits({rays.data(), count}, {hits.data(), count});
-    for (std::size_t i = 0; i < count; ++i) {
+    rows_[row].aim(sample, {rays.data(), width_});
+    tracer_.closest_hits({rays.data(), width_}, {hits.data(), width_});
+    for (std::size_t i = 0; i < width_; ++i) {
+      const std::size_t lane = row * width_ + i;
+      rays_.set(lane, rays[i]);
+      hits_.triangle[lane] = HitWave::kNoTriangle;
+      if (hits[i]) hits_.set(lane, *hits[i]);
+      random_[lane] = rows_[row].random(i);
+    }
+  }
+
+  void add(std::size_t row, std::uint32_t sample) {
+    const int y = tile_.y + static_cast<int>(row);
+    for (std::size_t i = 0; i < width_; ++i) {
       const int x = tile_.x + static_cast<int>(i);
-      Sampler random = camera_rays_.random(i);
-      const Rgb value = integrator.radiance(rays[i], hits[i], world, tracer, random);
-      film_.prepare(x, y_, sample);
+      const Rgb value = radiance_[row * width_ + i];
+      film_.prepare(x, y, sample);
       if (is_radiance(value)) {
-        film_.add(x, y_, sample, value);
+        film_.add(x, y, sample, value);
       } else {
-        report_invalid({x, y_, sample, value}, result);
+        report_invalid({x, y, sample, value});
       }
     }
   }
 
- private:
-  static void report_invalid(const InvalidSample& invalid, TileResult& result) {
-    ++result.invalid_samples;
-    if (result.first_invalid.size() < RenderResult::kReportedInvalid) result.first_invalid.push_back(invalid);
+  void report_invalid(const InvalidSample& invalid) {
+    ++result_.invalid_samples;
+    if (result_.first_invalid.size() < RenderResult::kReportedInvalid)
+      result_.first_invalid.push_back(invalid);
   }
 
   const Tile& tile_;
-  int y_;
+  const std::size_t width_;
   Film& film_;
-  CameraRays camera_rays_;
+  std::unique_ptr<WaveIntegrator> waves_;
+  Tracer tracer_;
+  std::vector<CameraRays> rows_;
+  std::array<Sampler, kWaveSize> random_;
+  RayWave rays_;
+  HitWave hits_;
+  RgbWave radiance_;
+  TileResult result_;
 };
 
 }  // namespace
@@ -76,19 +112,9 @@ std::vector<Tile> tiles_of(int width, int height) {
 TileResult render_tile(const World& world, const Integrator& integrator, const Camera& camera,
                        const RenderSettings& settings, const Tile& tile, const SampleRange& samples,
                        Film& film) {
-  TileResult result;
-  Tracer tracer(world.accel);
-  for (int y = tile.y; y < tile.y + tile.height; ++y) {
-    TileRow row(camera, settings, tile, y, film);
-    for (std::uint32_t sample = samples.begin; sample < samples.end; ++sample) {
-      // Rows start at different samples, so that an image of few samples is timed as well.
-      const bool timed = (sample + static_cast<std::uint32_t>(y)) % kTimedSampleStride == 0;
-      const Tracer::Timing timing(tracer, timed);
-      row.render_sample(sample, world, integrator, tracer, result);
-    }
-  }
-  result.counts = tracer.counts;
-  return result;
+  TileSamples tile_samples(world, integrator, camera, settings, tile, film);
+  for (std::uint32_t sample = samples.begin; sample < samples.end; ++sample) tile_samples.render(sample);
+  return tile_samples.result();
 }
 
 }  // namespace lemma
