@@ -66,8 +66,7 @@ class PathIntegrator final : public ObservedIntegrator<PathIntegrator<M, Techniq
   }
 
   std::unique_ptr<WaveIntegrator> waves(const World& world) const override {
-    return std::make_unique<PathWave>(
-        WaveTechnique{options_, technique_.weighting(), world.scene.needs.model}, world);
+    return std::make_unique<PathWave>(WaveTechnique{options_, technique_.weighting(), M}, world);
   }
 
  private:
