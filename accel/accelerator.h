@@ -39,10 +39,12 @@ class Accelerator {
   /// @param blocked  as many as rays; 1 where there is a hit, else 0
   virtual void occluded_rays(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
-  /// closest_hit for the first `count` lanes, whose rays need not be alike.
+  /// closest_hit for the first `count` lanes, whose rays need not be alike. Lanes from the count up to
+  /// wave_end(count) may become any numbers, and their triangles kNoTriangle.
   virtual void closest_hits(const RayWave& rays, std::size_t count, HitWave& hits) const;
 
-  /// occluded for the first `count` lanes: 1 where there is a hit, else 0.
+  /// occluded for the first `count` lanes: 1 where there is a hit, else 0; lanes up to wave_end(count) may
+  /// become 0.
   virtual void occluded_rays(const RayWave& rays, std::size_t count, Wave<std::uint8_t>& blocked) const;
 
   /// Memory that the structure holds [bytes].

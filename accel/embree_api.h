@@ -9,6 +9,9 @@
 
 namespace lemma::embree_api {
 
+/// Of the rays of a packet: whether they start alike and go alike. It decides how they are traced.
+enum class Rays { coherent, incoherent };
+
 #if RTC_VERSION_MAJOR >= 4
 
 inline void intersect(RTCScene scene, RTCRayHit& ray) {
@@ -19,18 +22,18 @@ inline void occluded(RTCScene scene, RTCRay& ray) {
   rtcOccluded1(scene, &ray, nullptr);
 }
 
-/// Rays that start alike and go alike. @param valid  16 words: -1 for a ray, 0 for none
-inline void intersect_coherent(const int* valid, RTCScene scene, RTCRayHit16& rays) {
+/// @param valid  16 words: -1 for a ray, 0 for none
+inline void intersect(const int* valid, RTCScene scene, Rays how, RTCRayHit16& rays) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.flags = how == Rays::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
   rtcIntersect16(valid, scene, &rays, &arguments);
 }
 
-inline void occluded_coherent(const int* valid, RTCScene scene, RTCRay16& rays) {
+inline void occluded(const int* valid, RTCScene scene, Rays how, RTCRay16& rays) {
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.flags = how == Rays::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
   rtcOccluded16(valid, scene, &rays, &arguments);
 }
 
@@ -48,18 +51,20 @@ inline void occluded(RTCScene scene, RTCRay& ray) {
   rtcOccluded1(scene, &context, &ray);
 }
 
-/// Rays that start alike and go alike. @param valid  16 words: -1 for a ray, 0 for none
-inline void intersect_coherent(const int* valid, RTCScene scene, RTCRayHit16& rays) {
+/// @param valid  16 words: -1 for a ray, 0 for none
+inline void intersect(const int* valid, RTCScene scene, Rays how, RTCRayHit16& rays) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags =
+      how == Rays::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   rtcIntersect16(valid, scene, &context, &rays);
 }
 
-inline void occluded_coherent(const int* valid, RTCScene scene, RTCRay16& rays) {
+inline void occluded(const int* valid, RTCScene scene, Rays how, RTCRay16& rays) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags =
+      how == Rays::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   rtcOccluded16(valid, scene, &context, &rays);
 }
 

@@ -9,11 +9,14 @@
 
 #include "accel/accelerator.h"
 #include "accel/embree_api.h"
+#include "accel/hit_wave.h"
 #include "accel/watertight.h"
 #include "src/core/error_bound.h"
 
 namespace lemma {
 namespace {
+
+using embree_api::Rays;
 
 struct ReleaseDevice {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -38,22 +41,32 @@ void check(RTCDevice device) {
 
 /// Embree takes intervals closed, Lemma's are open; it has no name for a ray that starts at its own surface,
 /// so t_min 0 becomes the smallest normal number.
+float nearest_of(const Ray& ray) {
+  return std::max(next_float_towards(ray.t_min, 1), std::numeric_limits<float>::min());
+}
+float farthest_of(const Ray& ray) {
+  return next_float_towards(ray.t_max, -1);  // infinity stays
+}
+
 RTCRay to_embree(const Ray& ray) {
   RTCRay r{};
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  r.tnear = std::max(next_float_towards(ray.t_min, 1), std::numeric_limits<float>::min());
-  r.tfar = next_float_towards(ray.t_max, -1);  // infinity stays
+  r.tnear = nearest_of(ray), r.tfar = farthest_of(ray);
   r.mask = 0xFFFFFFFFu;
   return r;
 }
 
-/// Embree's answer to rays that are not finite is undefined.
+/// Embree's answer to rays that are not finite is undefined. Without branches, for loops over many rays.
 bool is_finite(const Ray& ray) {
-  return lemma::is_finite(ray.origin) && lemma::is_finite(ray.direction) && ray.t_min < ray.t_max;
+  const auto all_finite = [](const Vec3& v) {
+    return std::isfinite(v.x) & std::isfinite(v.y) & std::isfinite(v.z);
+  };
+  return all_finite(ray.origin) & all_finite(ray.direction) & (ray.t_min < ray.t_max);
 }
 
 constexpr std::size_t kPacket = 16;
+static_assert(kWaveSize % kPacket == 0);
 
 /// Puts the ray in lane i.
 void set_lane(RTCRay16& packet, std::size_t i, const RTCRay& r) {
@@ -63,7 +76,7 @@ void set_lane(RTCRay16& packet, std::size_t i, const RTCRay& r) {
   packet.mask[i] = r.mask, packet.id[i] = 0, packet.flags[i] = 0;
 }
 
-/// Up to 16 rays as Embree takes them, and which lanes hold one.
+/// Up to 16 rays as Embree takes them, and which lanes hold one: -1, else 0.
 struct Packet {
   Packet(RTCRay16& packet, std::span<const Ray> rays) {
     for (std::size_t i = 0; i < kPacket; ++i) {
@@ -71,8 +84,38 @@ struct Packet {
       set_lane(packet, i, to_embree(valid[i] != 0 ? rays[i] : Ray{}));
     }
   }
-  alignas(64) std::array<int, kPacket> valid;
+
+  /// The rays of a wave's lanes from `begin` to `end`, or 16 of them. Loops that compilers make vector code
+  /// of.
+  Packet(RTCRay16& packet, const RayWave& rays, std::size_t begin, std::size_t end) {
+    const auto copy = [&](const Wave<float>& from, float* to) {
+      std::copy_n(&from.values[begin], kPacket, to);
+    };
+    copy(rays.origin.x, packet.org_x), copy(rays.origin.y, packet.org_y), copy(rays.origin.z, packet.org_z);
+    copy(rays.direction.x, packet.dir_x), copy(rays.direction.y, packet.dir_y);
+    copy(rays.direction.z, packet.dir_z);
+    const float* t_max = &rays.t_max.values[begin];
+    const auto lanes = static_cast<int>(std::min(kPacket, end - begin));
+    for (int i = 0; i < static_cast<int>(kPacket); ++i) {
+      const Ray ray{{packet.org_x[i], packet.org_y[i], packet.org_z[i]},
+                    {packet.dir_x[i], packet.dir_y[i], packet.dir_z[i]},
+                    0,
+                    t_max[i]};
+      valid[i] = (i < lanes) & is_finite(ray) ? -1 : 0;
+      packet.tnear[i] = nearest_of(ray), packet.tfar[i] = farthest_of(ray), packet.time[i] = 0;
+      packet.mask[i] = 0xFFFFFFFFu, packet.id[i] = 0, packet.flags[i] = 0;
+    }
+  }
+
+  alignas(64) int valid[kPacket];
 };
+
+void expect_no_hit(RTCHit16& hit) {
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
 
 class EmbreeBvh final : public Accelerator {
  public:
@@ -116,9 +159,33 @@ class EmbreeBvh final : public Accelerator {
       const auto some = rays.subspan(begin, std::min(kPacket, rays.size() - begin));
       RTCRay16 query;
       const Packet packet(query, some);
-      embree_api::occluded_coherent(packet.valid.data(), scene_.get(), query);
+      embree_api::occluded(packet.valid, scene_.get(), Rays::coherent, query);
       for (std::size_t i = 0; i < some.size(); ++i)
         blocked[begin + i] = packet.valid[i] != 0 && query.tfar[i] < 0 ? 1 : 0;
+    }
+  }
+
+  void closest_hits(const RayWave& rays, std::size_t count, HitWave& hits) const override {
+    RTCRayHit16 query;
+    for (std::size_t begin = 0; begin < count; begin += kPacket) {
+      const Packet packet(query.ray, rays, begin, count);
+      expect_no_hit(query.hit);
+      embree_api::intersect(packet.valid, scene_.get(), Rays::incoherent, query);
+      for (std::size_t i = 0; i < kPacket; ++i) {
+        const bool is_hit = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        hits.triangle[begin + i] = is_hit ? query.hit.primID[i] : HitWave::kNoTriangle;
+      }
+    }
+    hits_on_(triangles_, rays, count, hits);
+  }
+
+  void occluded_rays(const RayWave& rays, std::size_t count, Wave<std::uint8_t>& blocked) const override {
+    RTCRay16 query;
+    for (std::size_t begin = 0; begin < count; begin += kPacket) {
+      const Packet packet(query, rays, begin, count);
+      embree_api::occluded(packet.valid, scene_.get(), Rays::incoherent, query);
+      for (std::size_t i = 0; i < kPacket; ++i)
+        blocked[begin + i] = (packet.valid[i] != 0) & (query.tfar[i] < 0) ? 1 : 0;
     }
   }
 
@@ -132,11 +199,8 @@ class EmbreeBvh final : public Accelerator {
   void closest_hits_of_packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
     RTCRayHit16 query;
     const Packet packet(query.ray, rays);
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    embree_api::intersect_coherent(packet.valid.data(), scene_.get(), query);
+    expect_no_hit(query.hit);
+    embree_api::intersect(packet.valid, scene_.get(), Rays::coherent, query);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       hits[i].reset();
       if (packet.valid[i] == 0 || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -164,6 +228,7 @@ class EmbreeBvh final : public Accelerator {
   }
 
   std::span<const Triangle> triangles_;
+  decltype(HitsOnTriangles::function) hits_on_ = hits_on_triangles().function;
   std::atomic<std::int64_t> bytes_{0};  // outlives the device, which reports to it until it is gone
   Device device_;
   SceneHandle scene_;

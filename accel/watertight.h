@@ -16,13 +16,17 @@ struct ShearedRay {
     const Vec3& d = ray.direction;
     const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
     kz = x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
-    kx = (kz + 1) % 3;
-    ky = (kx + 1) % 3;
-    if (d[kz] < 0) std::swap(kx, ky);
-    sx = d[kx] / d[kz];
-    sy = d[ky] / d[kz];
-    sz = 1 / d[kz];
+    const int after = kz == 2 ? 0 : kz + 1, before = kz == 0 ? 2 : kz - 1;
+    const float along = on_axis(d, kz);
+    kx = along < 0 ? before : after;
+    ky = along < 0 ? after : before;
+    sx = on_axis(d, kx) / along;
+    sy = on_axis(d, ky) / along;
+    sz = 1 / along;
   }
+
+  /// v[k] by selects, for loops over many rays.
+  [[nodiscard]] static float on_axis(const Vec3& v, int k) { return k == 0 ? v.x : (k == 1 ? v.y : v.z); }
 
   Vec3 origin;
   float t_min, t_max;
@@ -40,7 +44,8 @@ struct Vertex {
 
 inline Vertex shear(const ShearedRay& ray, const Vec3& v) {
   const Vec3 a = v - ray.origin;
-  return {a[ray.kx] - ray.sx * a[ray.kz], a[ray.ky] - ray.sy * a[ray.kz], a[ray.kz]};
+  const float z = ShearedRay::on_axis(a, ray.kz);
+  return {ShearedRay::on_axis(a, ray.kx) - ray.sx * z, ShearedRay::on_axis(a, ray.ky) - ray.sy * z, z};
 }
 
 /// b.x c.y - b.y c.x. The products of two floats are exact in double and one rounding follows, so the sign is
@@ -61,7 +66,7 @@ inline Weights weights(const Vertex& a, const Vertex& b, const Vertex& c) {
 
 /// Whether no edge has the ray on its outer side.
 inline bool passes_through(const Weights& e) {
-  return !((e.u < 0 || e.v < 0 || e.w < 0) && (e.u > 0 || e.v > 0 || e.w > 0));
+  return !(((e.u < 0) | (e.v < 0) | (e.w < 0)) & ((e.u > 0) | (e.v > 0) | (e.w > 0)));
 }
 
 inline float distance(const ShearedRay& ray, const Weights& e, const Vertex& a, const Vertex& b,
@@ -96,16 +101,22 @@ inline bool intersect(const ShearedRay& ray, const Triangle& triangle, std::uint
 }
 
 /// The hit on a triangle that another test has found: t and barycentric coordinates as intersect() computes
-/// them, moved onto the triangle where the ray passes it by a rounding error.
+/// them, moved onto the triangle where the ray passes it by a rounding error. Without branches, for loops
+/// over many rays.
 inline Hit hit_on(const ShearedRay& ray, const Triangle& triangle, std::uint32_t index) {
   using namespace watertight;
   const Vertex a = shear(ray, triangle.v0), b = shear(ray, triangle.v1), c = shear(ray, triangle.v2);
   const Weights e = weights(a, b, c);
-  if (e.sum == 0) return {ray.sz * a.z, index, 0, 0};  // seen edge-on: any of its points will do
-  const float b1 = std::clamp(static_cast<float>(e.v / e.sum), 0.0f, 1.0f);
-  const float b2 = std::clamp(static_cast<float>(e.w / e.sum), 0.0f, 1.0f - b1);
-  if (passes_through(e)) return {distance(ray, e, a, b, c), index, b1, b2};
-  return {ray.sz * ((1 - b1 - b2) * a.z + b1 * b.z + b2 * c.z), index, b1, b2};  // not that of the plane
+  const bool edge_on = e.sum == 0;  // any of its points will do: v0
+  const auto share = [&](double weight, float up_to) {
+    const auto exact = static_cast<float>(weight / e.sum);
+    const float inside = exact < 0 ? 0 : (exact > up_to ? up_to : exact);
+    return edge_on ? 0 : inside;
+  };
+  const float b1 = share(e.v, 1), b2 = share(e.w, 1 - b1);
+  const float on_plane = distance(ray, e, a, b, c);
+  const float on_triangle = ray.sz * ((1 - b1 - b2) * a.z + b1 * b.z + b2 * c.z);
+  return {edge_on ? ray.sz * a.z : (passes_through(e) ? on_plane : on_triangle), index, b1, b2};
 }
 
 /// The `best` before any triangle was tested: hits count below t_max, and t == t_max loses to no index.
