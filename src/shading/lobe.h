@@ -1,28 +1,42 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "src/core/elementary.h"
 #include "src/core/vec.h"
 #include "src/core/warp.h"
 
 namespace lemma {
 
+// What loops over lanes call as well is free of calls, and inlined whatever its size: else there is no vector
+// code.
+
+/// condition ? a : b, by components: GCC leaves a structure that a condition chooses in memory, which no
+/// vector code is made of.
+[[gnu::always_inline, nodiscard]] inline Vec3 select(bool condition, const Vec3& a, const Vec3& b) {
+  return {condition ? a.x : b.x, condition ? a.y : b.y, condition ? a.z : b.z};
+}
+
 /// (1 - x)^n for x = 1 - cos(alpha): the lobe cos^n(alpha) of 90 degrees and less, 0 beyond. By log1p,
 /// because pow(cos(alpha), n) loses all digits at n = 1e5. Most directions are far off a narrow lobe: since
-/// log1p(-x) <= -x, the exponential is below that of -n x, and rounds to 0 where that is below exp(-103.98),
-/// half of the least float.
-[[nodiscard]] inline float cos_power(float one_minus_cos, float n) {
-  constexpr float vanishes = 104;
-  if (!(one_minus_cos < 1) || n * one_minus_cos > vanishes) return 0;
-  return std::exp(n * std::log1p(-one_minus_cos));
+/// log1p(-x) <= -x, the exponential is below that of -n x, and is taken for 0 where that is below
+/// exp(-87) = 1.6e-38, near which floats begin to lose digits.
+[[gnu::always_inline, nodiscard]] inline float cos_power(float one_minus_cos, float n) {
+  constexpr float vanishes = 87;
+  const bool is_lit = (one_minus_cos < 1) & (n * one_minus_cos < vanishes);
+  const double x =
+      is_lit ? double{one_minus_cos} : 0.0;  // no arguments beyond those of log1p, in other lanes
+  return is_lit ? static_cast<float>(elementary::exp(double{n} * elementary::log1p(-x))) : 0.0f;
 }
 
 /// 1 - cos(alpha) with density (n + 1) / (2 pi) cos(alpha)^n over the hemisphere: 1 - (1 - u)^(1 / (n + 1)),
 /// by expm1 so that narrow lobes keep their digits.
 /// @param u  uniform in [0, 1)
-[[nodiscard]] inline float sample_one_minus_cos(float n, float u) {
-  return -std::expm1(std::log1p(-u) / (n + 1));
+[[gnu::always_inline, nodiscard]] inline float sample_one_minus_cos(float n, float u) {
+  return static_cast<float>(-elementary::expm1(elementary::log1p(-double{u}) / (double{n} + 1)));
 }
 
 /// 1 - cos of the angle between unit vectors: |a - b|^2 / 2, which does not cancel.
@@ -51,19 +65,20 @@ class PhongLobe {
  public:
   PhongLobe(const Vec3& wo, float n) : r_(-wo.x, -wo.y, wo.z), n_(n) {}
 
-  [[nodiscard]] float cos_n(const Vec3& wi) const { return cos_power(one_minus_cos_between(wi, r_), n_); }
-
-  [[nodiscard]] float pdf(const Vec3& wi, float cos_n) const {
-    if (cos_n == 0) return 0;
-    return (n_ + 1) * 0.5f * cos_n / largest_azimuth(one_minus_cos_between(wi, r_));
+  [[gnu::always_inline, nodiscard]] float cos_n(const Vec3& wi) const {
+    return cos_power(one_minus_cos_between(wi, r_), n_);
   }
 
-  [[nodiscard]] Vec3 sample(const Vec2& u) const {
+  [[gnu::always_inline, nodiscard]] float pdf(const Vec3& wi, float cos_n) const {
+    return (n_ + 1) * 0.5f * cos_n / largest_azimuth(std::min(one_minus_cos_between(wi, r_), 1.0f));
+  }
+
+  [[gnu::always_inline, nodiscard]] Vec3 sample(const Vec2& u) const {
     const float x = sample_one_minus_cos(n_, u.x);
     const auto [sin_phi, cos_phi] = sin_cos_turn((u.y - 0.5f) * kInvPi * largest_azimuth(x));
     const float sin_r = sin_of_r();
     const Vec3 towards_normal =
-        sin_r > 0 ? Vec3(-r_.x * r_.z / sin_r, -r_.y * r_.z / sin_r, sin_r) : Vec3(1, 0, 0);
+        select(sin_r > 0, Vec3(-r_.x * r_.z / sin_r, -r_.y * r_.z / sin_r, sin_r), Vec3(1, 0, 0));
     const Vec3 side = cross(r_, towards_normal);
     return r_ * (1 - x) + (towards_normal * cos_phi + side * sin_phi) * sine(x);
   }
@@ -72,10 +87,12 @@ class PhongLobe {
   [[nodiscard]] float sin_of_r() const { return std::sqrt(r_.x * r_.x + r_.y * r_.y); }
 
   /// @param one_minus_cos  of alpha, at most 1
-  [[nodiscard]] float largest_azimuth(float one_minus_cos) const {
+  [[gnu::always_inline, nodiscard]] float largest_azimuth(float one_minus_cos) const {
     if constexpr (!Truncated) return kPi;
     const float across = sin_of_r() * sine(one_minus_cos), along = r_.z * (1 - one_minus_cos);
-    return along >= across ? kPi : std::acos(-along / across);
+    // acos(-along / across), all around where along is greater.
+    const double quotient = along / std::max(std::max(along, across), std::numeric_limits<float>::min());
+    return static_cast<float>(0.5 * std::numbers::pi + elementary::asin(quotient));
   }
 
   Vec3 r_;
@@ -88,18 +105,18 @@ class BlinnLobe {
  public:
   BlinnLobe(const Vec3& wo, float n) : wo_(wo), n_(n) {}
 
-  [[nodiscard]] float cos_n(const Vec3& wi) const {
+  [[gnu::always_inline, nodiscard]] float cos_n(const Vec3& wi) const {
     const Vec3 sum = wo_ + wi;
-    if (!has_direction(sum)) return 0;
-    return cos_power(one_minus_cos_between({0, 0, 1}, normalize(sum)), n_);
+    const float one_minus_cos = one_minus_cos_between({0, 0, 1}, normalize(sum));
+    return cos_power(has_direction(sum) ? one_minus_cos : 1, n_);
   }
 
-  [[nodiscard]] float pdf(const Vec3& wi, float cos_n) const {
-    if (cos_n == 0) return 0;
-    return (n_ + 1) * (0.5f * kInvPi) * cos_n / (2 * length(wo_ + wi));  // wo . h = |wo + wi| / 2
+  [[gnu::always_inline, nodiscard]] float pdf(const Vec3& wi, float cos_n) const {
+    const float sum = std::max(length(wo_ + wi), kLeastSum);  // twice wo . h
+    return (n_ + 1) * (0.5f * kInvPi) * cos_n / (2 * sum);
   }
 
-  [[nodiscard]] Vec3 sample(const Vec2& u) const {
+  [[gnu::always_inline, nodiscard]] Vec3 sample(const Vec2& u) const {
     const float x = sample_one_minus_cos(n_, u.x);
     const auto [sin_phi, cos_phi] = sin_cos_turn(u.y);
     const float sin_h = sine(x);
@@ -109,7 +126,8 @@ class BlinnLobe {
 
  private:
   /// The half vector of opposed directions along the surface is what rounding leaves; its square may be 0.
-  static bool has_direction(const Vec3& sum) { return dot(sum, sum) > std::numeric_limits<float>::min(); }
+  static bool has_direction(const Vec3& sum) { return dot(sum, sum) > kLeastSum * kLeastSum; }
+  static constexpr float kLeastSum = 0x1p-63f;
 
   Vec3 wo_;
   float n_;

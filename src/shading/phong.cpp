@@ -1,7 +1,6 @@
 #include "src/shading/phong.h"
 
-#include "src/core/warp.h"
-#include "src/shading/lobe.h"
+#include "src/shading/phong_formulas.h"
 
 namespace lemma {
 namespace {
@@ -19,32 +18,13 @@ float specular_factor(float n, const BrdfOptions& options) {
   return (n + (options.norm == PhongNorm::n_plus_1 ? 1.0f : 2.0f)) * (0.5f * kInvPi);
 }
 
-/// Calls use(lobe) with the lobe of the material.
-template <class Use>
-auto with_lobe(const Material& m, const Vec3& wo, const Use& use) {
-  if (m.lobe == Lobe::blinn_phong) return use(BlinnLobe(wo, m.exponent));
-  return m.sampling == LobeSampling::truncated ? use(PhongLobe<true>(wo, m.exponent))
-                                               : use(PhongLobe<false>(wo, m.exponent));
-}
-
-Rgb value(const Material& m, float cos_n) {
-  return m.kd * kInvPi + m.ks * (m.specular_factor * cos_n);
-}
-
-template <class SomeLobe>
-float mixture_pdf(const Material& m, const SomeLobe& lobe, const Vec3& wi, float cos_n) {
-  const float p = m.diffuse_probability;
-  return p * wi.z * kInvPi + (1 - p) * lobe.pdf(wi, cos_n);
-}
-
-template <class SomeLobe>
-std::optional<BrdfSample> sample_mixture(const Material& m, const SomeLobe& lobe, bool diffuse,
-                                         const Vec2& u) {
-  const Vec3 wi = diffuse ? cosine_hemisphere(u) : lobe.sample(u);
-  if (wi.z <= 0) return std::nullopt;
-  const float cos_n = lobe.cos_n(wi), density = mixture_pdf(m, lobe, wi, cos_n);
-  if (density <= 0) return std::nullopt;
-  return BrdfSample{wi, {density}, value(m, cos_n) * (wi.z / density)};
+/// Calls use() with the formulas of the material.
+template <bool Specular, class Use>
+auto with_formulas(const Material& m, const Use& use) {
+  if (!Specular || is_black(m.ks)) return use(LambertFormulas());
+  if (m.lobe == Lobe::blinn_phong) return use(MixtureFormulas<BlinnLobe>());
+  return m.sampling == LobeSampling::truncated ? use(MixtureFormulas<PhongLobe<true>>())
+                                               : use(MixtureFormulas<PhongLobe<false>>());
 }
 
 /// The choice of p6: by the channel sums.
@@ -93,29 +73,16 @@ float largest_albedo(const Material& m) {
 
 template <bool Specular>
 BrdfValue Phong<Specular>::at(const Vec3& wo, const Vec3& wi) const {
-  if (wo.z <= 0 || wi.z <= 0) return {};
-  if (is_lambert()) return {material_.kd * kInvPi, {wi.z * kInvPi}};
-  return with_lobe(material_, wo, [&](const auto& lobe) {
-    const float cos_n = lobe.cos_n(wi);
-    return BrdfValue{value(material_, cos_n), {mixture_pdf(material_, lobe, wi, cos_n)}};
-  });
+  return with_formulas<Specular>(material_, [&](auto formulas) { return formulas.at(material_, wo, wi); });
 }
 
 template <bool Specular>
 std::optional<BrdfSample> Phong<Specular>::sample_part(const Vec3& wo, bool diffuse, const Vec2& u) const {
-  if (wo.z <= 0) return std::nullopt;
-  if (is_lambert()) {
-    if (is_black(material_.kd)) return std::nullopt;
-    const Vec3 wi = cosine_hemisphere(u);
-    return BrdfSample{wi, {wi.z * kInvPi}, material_.kd};
-  }
-  return with_lobe(material_, wo,
-                   [&](const auto& lobe) { return sample_mixture(material_, lobe, diffuse, u); });
-}
-
-template <bool Specular>
-bool Phong<Specular>::is_lambert() const {
-  return !Specular || is_black(material_.ks);
+  const BrdfSample sample = with_formulas<Specular>(material_, [&](auto formulas) {
+    return formulas.weigh(material_, wo, formulas.draw(material_, wo, diffuse, u));
+  });
+  if (!(sample.pdf.value > 0)) return std::nullopt;
+  return sample;
 }
 
 template class Phong<false>;

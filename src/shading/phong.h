@@ -90,7 +90,6 @@ class Phong {
 
  private:
   [[nodiscard]] std::optional<BrdfSample> sample_part(const Vec3& wo, bool diffuse, const Vec2& u) const;
-  [[nodiscard]] bool is_lambert() const;
 
   const Material& material_;
 };

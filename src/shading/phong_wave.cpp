@@ -1,51 +1,82 @@
 #include "src/shading/phong_wave.h"
+
+#include "src/core/instruction_sets.h"
+#include "src/shading/phong_formulas.h"
+
+// This file is compiled once for every instruction set, by including itself.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/shading/phong_wave.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace lemma {
+namespace HWY_NAMESPACE {
 namespace {
-Material m_of(const MaterialWave& m, std::size_t i, Lobe lobe, LobeSampling s) {
-  Material r;
-  r.kd = m.kd[i];
-  r.ks = m.ks[i];
-  r.exponent = m.exponent[i];
-  r.lobe = lobe;
-  r.sampling = s;
-  r.specular_factor = m.specular_factor[i];
-  r.diffuse_probability = m.diffuse_probability[i];
-  return r;
-}
-template <bool S, Lobe L, LobeSampling P>
-void at(const MaterialWave& m, const VecWave& wo, const VecWave& wi, std::size_t n, BrdfValueWave& v) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const Material x = m_of(m, i, L, P);
-    const auto r = Phong<S>(x).at(wo[i], wi[i]);
-    v.f.set(i, r.f);
-    v.pdf[i] = r.pdf.value;
+
+// Plain loops without branches, that compilers turn into vector code of the instruction set.
+
+template <class Formulas>
+void at(const MaterialWave& materials, const VecWave& wo, const VecWave& wi, std::size_t count,
+        BrdfValueWave& values) {
+  for (std::size_t i = 0; i < wave_end(count); ++i) {
+    const BrdfValue value = Formulas::at(materials[i], wo[i], wi[i]);
+    values.f.set(i, value.f);
+    values.pdf[i] = value.pdf.value;
   }
 }
-template <bool S, Lobe L, LobeSampling P>
-void sample(const MaterialWave& m, const VecWave& wo, const ChoicePairWave& u, std::size_t n,
-            BrdfSampleWave& v) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const Material x = m_of(m, i, L, P);
-    std::optional<BrdfSample> r;
-    if constexpr (S)
-      r = Phong<S>(x).sample(wo[i], Sampler::ChoicePair{u.x[i], u.y[i]});
-    else
-      r = Phong<S>(x).sample(wo[i], 0, Vec2(static_cast<float>(u.x[i]), u.y[i]));
-    v.pdf[i] = 0;
-    if (r) {
-      v.wi.set(i, r->wi);
-      v.pdf[i] = r->pdf.value;
-      v.weight.set(i, r->weight);
-    }
+
+template <class Formulas>
+void sample(const MaterialWave& materials, const VecWave& wo, const ChoicePairWave& u, std::size_t count,
+            BrdfSampleWave& samples) {
+  // Apart: together, GCC joins what follows from the choice in both, to a flow that vector code cannot have.
+  Wave<std::uint32_t> diffuse;
+  Wave<float> x;
+  for (std::size_t i = 0; i < wave_end(count); ++i) {
+    const double p = materials.diffuse_probability[i];
+    const bool first = u.x[i] < p;
+    diffuse[i] = first ? 1 : 0;
+    x[i] = rest_of_choice(u.x[i], p, first);
+  }
+  for (std::size_t i = 0; i < wave_end(count); ++i) {
+    const Vec3 wi = Formulas::draw(materials[i], wo[i], diffuse[i] != 0, {x[i], u.y[i]});
+    samples.wi.set(i, wi);
+  }
+  for (std::size_t i = 0; i < wave_end(count); ++i) {
+    const BrdfSample sample = Formulas::weigh(materials[i], wo[i], samples.wi[i]);
+    samples.pdf[i] = sample.pdf.value;
+    samples.weight.set(i, sample.weight);
   }
 }
+
+template <class Formulas>
+PhongWaves waves_of() {
+  return {at<Formulas>, sample<Formulas>, hwy::TargetName(HWY_TARGET)};
+}
+
 }  // namespace
-std::vector<PhongWaves> all_phong_waves(bool s, Lobe lobe, LobeSampling sampling) {
-  constexpr Lobe P = Lobe::phong, B = Lobe::blinn_phong;
-  constexpr LobeSampling T = LobeSampling::truncated, Q = LobeSampling::p6;
-  if (!s) return {{at<false, P, T>, sample<false, P, T>, "path by path"}};
-  if (lobe == B) return {{at<true, B, T>, sample<true, B, T>, "path by path"}};
-  if (sampling == T) return {{at<true, P, T>, sample<true, P, T>, "path by path"}};
-  return {{at<true, P, Q>, sample<true, P, Q>, "path by path"}};
+
+PhongWaves phong_waves(bool specular, Lobe lobe, LobeSampling sampling) {
+  if (!specular) return waves_of<LambertFormulas>();
+  if (lobe == Lobe::blinn_phong) return waves_of<MixtureFormulas<BlinnLobe>>();
+  return sampling == LobeSampling::truncated ? waves_of<MixtureFormulas<PhongLobe<true>>>()
+                                             : waves_of<MixtureFormulas<PhongLobe<false>>>();
 }
+
+}  // namespace HWY_NAMESPACE
 }  // namespace lemma
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lemma {
+
+HWY_EXPORT(phong_waves);
+
+std::vector<PhongWaves> all_phong_waves(bool specular, Lobe lobe, LobeSampling sampling) {
+  return for_every_instruction_set(
+      [&] { return HWY_DYNAMIC_DISPATCH(phong_waves)(specular, lobe, sampling); });
+}
+
+}  // namespace lemma
+#endif

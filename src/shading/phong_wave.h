@@ -18,6 +18,14 @@ struct MaterialWave {
     exponent[lane] = m.exponent, specular_factor[lane] = m.specular_factor,
     diffuse_probability[lane] = m.diffuse_probability;
   }
+  /// That much of it.
+  [[nodiscard]] Material operator[](std::size_t lane) const {
+    return {.kd = kd[lane],
+            .ks = ks[lane],
+            .exponent = exponent[lane],
+            .specular_factor = specular_factor[lane],
+            .diffuse_probability = diffuse_probability[lane]};
+  }
 };
 
 /// BrdfValue of each lane.
