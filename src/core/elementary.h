@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 // Elementary functions without branches, tables or calls, for loops over lanes that compilers turn into
@@ -29,7 +30,7 @@ template <std::size_t Count>
   return even + odd * x;
 }
 
-/// exp(x) = power (1 + rest): power a power of two, |rest| < 0.42, for -708 <= x <= 709.
+/// exp(x) = power (1 + rest): power a power of two, |rest| < 0.42, for -708 <= x <= 709; any numbers beyond.
 struct Exponential {
   double power, rest;
 };
@@ -62,20 +63,19 @@ struct Exponential {
 
 /// exp(x) for x <= 709, within 2e-14; 0 below -708, where the result nears the least normal number.
 [[gnu::always_inline, nodiscard]] inline double exp(double x) {
-  constexpr double least = -708;
-  const auto [power, rest] = detail::exponential(x < least ? least : x);
-  return x < least ? 0 : power + power * rest;
+  const auto [power, rest] = detail::exponential(x);
+  return x < -708 ? 0 : power + power * rest;
 }
 
 /// For all x: infinity above 88.73; below -87.3 subnormal numbers, and 0 from -103.98 on.
 [[gnu::always_inline, nodiscard]] inline float exp(float x) {
-  return static_cast<float>(exp(static_cast<double>(x > 89 ? 89 : x)));
+  const double value = exp(static_cast<double>(x));
+  return x > 89 ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
 }
 
-/// exp(x) - 1 for x <= 0, within 4e-14 however small x is.
+/// exp(x) - 1 for x in [-708, 0], within 4e-14 however small x is.
 [[gnu::always_inline, nodiscard]] inline double expm1(double x) {
-  constexpr double least = -708;
-  const auto [power, rest] = detail::exponential(x < least ? least : x);
+  const auto [power, rest] = detail::exponential(x);
   return power * rest + (power - 1);
 }
 

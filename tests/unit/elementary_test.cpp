@@ -75,7 +75,6 @@ TEST(Elementary, ExponentialLessOne) {
     const auto x = static_cast<float>(-size);
     expect_rounded(elementary::expm1(x), std::expm1(static_cast<long double>(x)), x);
   });
-  EXPECT_EQ(elementary::expm1(-1e300), -1);
   EXPECT_TRUE(std::isnan(elementary::expm1(kNaN)));
 }
 
