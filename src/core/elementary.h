@@ -120,6 +120,19 @@ struct Exponential {
   return static_cast<float>(asin(static_cast<double>(x)));
 }
 
+/// asin(x) for x in [0, 1] as far as single precision goes, within 4e-7, in a third of the work.
+[[gnu::always_inline, nodiscard]] inline float asin_in_single(float x) {
+  const float half = 0.5f * (1 - x);
+  const bool steep = x > 0.5f;
+  const float y2 = steep ? half : x * x, y = steep ? std::sqrt(half) : x;
+  // As that of asin_rest, of degree 4: within 1.7e-8 of asin(x).
+  const float rest =
+      (((0x1.37fe16p-5f * y2 + 0x1.b311d2p-6f) * y2 + 0x1.70a6bcp-5f) * y2 + 0x1.332732p-4f) * y2 +
+      0x1.55555ep-3f;
+  const float angle = y + y * (y2 * rest);
+  return steep ? std::numbers::pi_v<float> / 2 - 2 * angle : angle;
+}
+
 /// acos(x) for |x| <= 1, within 2e-14; NaN beyond.
 [[gnu::always_inline, nodiscard]] inline double acos(double x) {
   const double size = std::abs(x), half = 0.5 * (1 - size);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 
 #include "src/core/elementary.h"
 #include "src/core/vec.h"
@@ -99,8 +98,8 @@ class PhongLobe {
     if constexpr (!Truncated) return kPi;
     const float across = sin_of_r() * sine(one_minus_cos), along = r_.z * (1 - one_minus_cos);
     // acos(-along / across), all around where along is greater.
-    const double quotient = along / std::max(std::max(along, across), std::numeric_limits<float>::min());
-    return static_cast<float>(0.5 * std::numbers::pi + elementary::asin(quotient));
+    const float quotient = along / std::max(std::max(along, across), std::numeric_limits<float>::min());
+    return 0.5f * kPi + elementary::asin_in_single(quotient);
   }
 
   Vec3 r_;

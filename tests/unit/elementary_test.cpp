@@ -108,5 +108,16 @@ TEST(Elementary, ArcSineAndCosine) {
   }
 }
 
+/// The polynomial's 1.7e-8; six roundings of 2^-24 of the angle, which the difference from pi / 2 may double
+/// when it is least, pi / 6.
+TEST(Elementary, ArcSineInSinglePrecision) {
+  for_sizes(1, [](double size) {
+    for (const auto x : {static_cast<float>(size), static_cast<float>(1 - size)}) {
+      expect_within(double{elementary::asin_in_single(x)}, std::asin(static_cast<long double>(x)), 4e-7,
+                    double{x});
+    }
+  });
+}
+
 }  // namespace
 }  // namespace lemma
