@@ -121,25 +121,66 @@ RecordedRays record_rays(const Case& scene, const Accelerator& accel, const RayS
 
 std::span<const Named<RayKind>> ray_kinds() {
   static constexpr Named<RayKind> table[] = {
-      {"primary", {&RecordedRays::primary, false, false}, "camera rays, one by one"},
-      {"bounce", {&RecordedRays::bounce, false, false}, "cosine-distributed rays from surfaces"},
-      {"shadow", {&RecordedRays::shadow, true, false}, "any hit between surfaces and lights"},
-      {"primary-batch", {&RecordedRays::primary, false, true}, "camera rays, 16 at a time"}};
+      {"primary", {&RecordedRays::primary, false, Asked::single}, "camera rays, one by one"},
+      {"bounce", {&RecordedRays::bounce, false, Asked::single}, "cosine-distributed rays from surfaces"},
+      {"shadow", {&RecordedRays::shadow, true, Asked::single}, "any hit between surfaces and lights"},
+      {"primary-batch", {&RecordedRays::primary, false, Asked::row}, "camera rays, 16 at a time"},
+      {"bounce-wave",
+       {&RecordedRays::bounce, false, Asked::wave},
+       "cosine-distributed rays, a wave at a time"},
+      {"shadow-wave", {&RecordedRays::shadow, true, Asked::wave}, "any hit, a wave at a time"}};
   return table;
 }
 
-void trace(const Accelerator& accel, const RecordedRays& recorded, const RayKind& kind) {
-  const std::vector<Ray>& rays = recorded.*kind.rays;
-  if (kind.batch) {
-    std::array<std::optional<Hit>, kBatch> hits;
-    for (std::size_t i = 0; i + kBatch <= rays.size(); i += kBatch) {
-      accel.closest_hits({rays.data() + i, kBatch}, hits);
-      benchmark::DoNotOptimize(hits);
+namespace {
+
+void trace_rows(const Accelerator& accel, std::span<const Ray> rays) {
+  std::array<std::optional<Hit>, kBatch> hits;
+  for (std::size_t i = 0; i + kBatch <= rays.size(); i += kBatch) {
+    accel.closest_hits(rays.subspan(i, kBatch), hits);
+    benchmark::DoNotOptimize(hits);
+  }
+}
+
+/// Putting the rays into the wave counts as well.
+void trace_waves(const Accelerator& accel, std::span<const Ray> rays, bool any_hit) {
+  RayWave wave;
+  HitWave hits;
+  Wave<std::uint8_t> blocked;
+  for (std::size_t begin = 0; begin < rays.size(); begin += kWaveSize) {
+    const std::size_t count = std::min(kWaveSize, rays.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) wave.set(i, rays[begin + i]);
+    if (any_hit) {
+      accel.occluded_rays(wave, count, blocked);
+    } else {
+      accel.closest_hits(wave, count, hits);
     }
-  } else if (kind.any_hit) {
-    for (const Ray& ray : rays) benchmark::DoNotOptimize(accel.occluded(ray));
-  } else {
-    for (const Ray& ray : rays) benchmark::DoNotOptimize(accel.closest_hit(ray));
+    benchmark::DoNotOptimize(blocked);
+    benchmark::DoNotOptimize(hits);
+  }
+}
+
+void trace_single(const Accelerator& accel, std::span<const Ray> rays, bool any_hit) {
+  for (const Ray& ray : rays) {
+    if (any_hit) {
+      benchmark::DoNotOptimize(accel.occluded(ray));
+    } else {
+      benchmark::DoNotOptimize(accel.closest_hit(ray));
+    }
+  }
+}
+
+}  // namespace
+
+void trace(const Accelerator& accel, const RecordedRays& recorded, const RayKind& kind) {
+  const std::span<const Ray> rays = recorded.*kind.rays;
+  switch (kind.asked) {
+    case Asked::single:
+      return trace_single(accel, rays, kind.any_hit);
+    case Asked::row:
+      return trace_rows(accel, rays);
+    case Asked::wave:
+      return trace_waves(accel, rays, kind.any_hit);
   }
 }
 

@@ -42,10 +42,14 @@ struct RaySize {
 };
 [[nodiscard]] RecordedRays record_rays(const Case& scene, const Accelerator& accel, const RaySize& size = {});
 
+/// How many rays are asked for at a time: one, a row of 16 (coherent rays), a wave.
+enum class Asked { single, row, wave };
+
 /// How rays are asked for.
 struct RayKind {
   std::vector<Ray> RecordedRays::*rays;
-  bool any_hit, batch;  // a batch is a row of 16
+  bool any_hit;
+  Asked asked;
 };
 [[nodiscard]] std::span<const Named<RayKind>> ray_kinds();
 

@@ -26,7 +26,7 @@ double embree_rate(const std::string& case_name) {
   const auto trace_once = [&] {
     std::size_t count = 0;
     for (const Named<RayKind>& kind : ray_kinds()) {
-      if (kind.value.batch) continue;
+      if (kind.value.asked != Asked::single) continue;
       trace(*embree, rays, kind.value);
       count += (rays.*kind.value.rays).size();
     }

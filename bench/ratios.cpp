@@ -62,7 +62,7 @@ std::unique_ptr<const Accelerator> build(std::string_view accel, const Case& sce
 
 /// The kinds of the geometric mean: one ray at a time.
 bool counts(const Named<RayKind>& kind) {
-  return !kind.value.batch;
+  return kind.value.asked == Asked::single;
 }
 
 /// One case: its line of the table and its JSON; multiplies its ratios into the geometric mean.
