@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cmath>
-
+#include "src/core/elementary.h"
 #include "src/core/vec.h"
 
 namespace lemma {
@@ -25,7 +24,7 @@ struct Reflection {
   [[nodiscard]] float mean(const Vec3& axis, float one_minus_cos) const {
     const Vec3 apart = axis - mirror;
     const float both = width + one_minus_cos;
-    return diffuse + peak * (width / both) * std::exp(-0.5f * dot(apart, apart) / both);
+    return diffuse + peak * (width / both) * elementary::exp(-0.5f * dot(apart, apart) / both);
   }
 };
 

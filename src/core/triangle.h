@@ -32,7 +32,7 @@ struct Triangle {
 
 [[nodiscard]] inline double longest_edge2(const Triangle& t) {
   const Vec3d e0(t.v1 - t.v0), e1(t.v2 - t.v1), e2(t.v0 - t.v2);
-  return std::max({dot(e0, e0), dot(e1, e1), dot(e2, e2)});
+  return std::max(std::max(dot(e0, e0), dot(e1, e1)), dot(e2, e2));
 }
 
 /// (longest edge)^2 / (2 area): 1.15 for an equilateral triangle, large for slivers. Rounding errors of a

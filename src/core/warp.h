@@ -58,8 +58,9 @@ template <class T>
 /// What a choice of probability p leaves of its number x, uniform in [0, 1) before and after: to 24 bits.
 /// @param first  x < p
 [[nodiscard]] inline float rest_of_choice(double x, double p, bool first) {
-  const double rest = (first ? x : x - p) / (first ? p : 1 - p);
-  return std::min(static_cast<float>(rest), 1 - 0x1p-24f);
+  constexpr float last = 1 - 0x1p-24f;
+  const auto rest = static_cast<float>((first ? x : x - p) / (first ? p : 1 - p));
+  return last < rest ? last : rest;
 }
 struct Decision {
   bool first;  // x was below p

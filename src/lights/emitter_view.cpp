@@ -3,12 +3,6 @@
 #include <cmath>
 
 namespace lemma {
-namespace {
-
-// Cosines err by less than this.
-constexpr float kSlack = 1e-6f;
-
-}  // namespace
 
 float longest_edge(const Triangle& t) {
   return std::max({length(t.v1 - t.v0), length(t.v2 - t.v1), length(t.v0 - t.v2)});
@@ -23,17 +17,6 @@ EmitterView::EmitterView(const Emitter& emitter)
   aside2_ = kAside * kAside * size_ * size_;
 }
 
-double EmitterView::far_importance(const Vec3& x, const Vec3& n) const {
-  const Vec3 d = centre_ - x;
-  const float distance2 = dot(d, d), distance = std::sqrt(distance2);
-  // Vertices lie within 2/3 of the longest edge of the centre, so heights over the horizon within `reach` of
-  // its own. Cut by the horizon, the mean of max(0, height) is that over an even spread of heights.
-  const float reach = 0.7f * size_ + kSlack * distance, height = dot(n, d);
-  if (height <= -reach) return 0;
-  const float mean_height = height < reach ? (height + reach) * (height + reach) / (4 * reach) : height;
-  return double{power_} * -dot(normal_, d) * mean_height / (double{distance2} * distance2);
-}
-
 /// The solid angle by the formula of SphericalTriangle, the cosine as the mean of max(0, cosine) at the
 /// vertices.
 double near_importance(const Emitter& emitter, const Vec3& x, const Vec3& n) {
@@ -42,7 +25,9 @@ double near_importance(const Emitter& emitter, const Vec3& x, const Vec3& n) {
   if (!(side > 0)) return 0;
   const Vec3 a = emitter.shape.v0 - x, b = emitter.shape.v1 - x, c = emitter.shape.v2 - x;
   const float la = length(a), lb = length(b), lc = length(c);
-  const auto cosine = [&](const Vec3& v, float size) { return std::max(dot(n, v) / size + kSlack, 0.0f); };
+  const auto cosine = [&](const Vec3& v, float size) {
+    return std::max(dot(n, v) / size + EmitterView::kSlack, 0.0f);
+  };
   const float cosines = cosine(a, la) + cosine(b, lb) + cosine(c, lc);
   if (cosines == 0) return 0;
   const float solid_angle = 2 * std::atan2(std::max(static_cast<float>(side), least),

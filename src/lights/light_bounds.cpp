@@ -101,12 +101,4 @@ double LightImportance::operator()(const Vec3& x, const Vec3& n) const {
   return near * above_horizon(emitter) * above_horizon(surface);
 }
 
-float LightImportance::reflected(const Vec3& x, const Reflection& reflection) const {
-  const Vec3 to_centre = centre_ - x;
-  const float distance2 = dot(to_centre, to_centre);
-  if (distance2 <= radius2_) return reflection.mean(reflection.mirror, 1);  // in any direction
-  const float cosine = std::sqrt(1 - radius2_ / distance2);
-  return reflection.mean(to_centre * (1 / std::sqrt(distance2)), radius2_ / (distance2 * (1 + cosine)));
-}
-
 }  // namespace lemma

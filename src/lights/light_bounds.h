@@ -29,7 +29,17 @@ class LightImportance {
   [[nodiscard]] double operator()(const Vec3& x, const Vec3& n) const;
 
   /// The mean of what is reflected at x over the directions to the emitters, about.
-  [[nodiscard]] float reflected(const Vec3& x, const Reflection& reflection) const;
+  [[gnu::always_inline, nodiscard]] float reflected(const Vec3& x, const Reflection& reflection) const {
+    const Vec3 to_centre = centre_ - x;
+    const float distance2 = dot(to_centre, to_centre);
+    const bool within = distance2 <= radius2_;  // then emitters may lie in any direction
+    const float cosine = std::sqrt(1 - radius2_ / distance2), scale = 1 / std::sqrt(distance2);
+    const auto either = [&](float a, float b) { return within ? a : b; };
+    const Vec3 axis(either(reflection.mirror.x, to_centre.x * scale),
+                    either(reflection.mirror.y, to_centre.y * scale),
+                    either(reflection.mirror.z, to_centre.z * scale));
+    return reflection.mean(axis, either(1, radius2_ / (distance2 * (1 + cosine))));
+  }
 
  private:
   Vec3 centre_, axis_;

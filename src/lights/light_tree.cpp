@@ -212,4 +212,31 @@ LightTree::Choice LightTree::choice_of(const LightQuery& at, std::uint32_t emitt
   return choice(light, pmf);
 }
 
+std::optional<LightRow> LightTree::row() const {
+  const auto is_group = [](const Node& node) { return node.whole != kNone || node.quad != kNone; };
+  LightRow row;
+  row.is_single = is_group(nodes_.front());
+  row.emitters = emitters_;
+  const Node& root = nodes_.front();
+  const std::uint32_t first = row.is_single ? 0 : root.first_child, count = row.is_single ? 1 : root.children;
+  if (count == 0) return std::nullopt;
+  row.light_of.resize(emitters_.size());
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Node& node = nodes_[first + k];
+    if (!is_group(node)) return std::nullopt;
+    LightRow::Light light(node.importance);
+    if (node.whole != kNone) {
+      light.whole = &wholes_[node.whole];
+      light.radiance = emitters_[light.whole->emitters.front()].radiance;
+      light.outline = outline_of(*light.whole, luminance(light.radiance));
+      for (const std::uint32_t e : light.whole->emitters) row.light_of[e] = k;
+    } else {
+      light.quad = &quads_[node.quad];
+      for (const std::uint32_t e : light.quad->emitters()) row.light_of[e] = k;
+    }
+    row.lights.push_back(light);
+  }
+  return row;
+}
+
 }  // namespace lemma

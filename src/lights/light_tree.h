@@ -6,6 +6,7 @@
 
 #include "src/lights/emitter_view.h"
 #include "src/lights/light_bounds.h"
+#include "src/lights/light_row.h"
 #include "src/lights/light_sampler.h"
 #include "src/lights/quad_light.h"
 #include "src/lights/sphere_cone.h"
@@ -45,6 +46,10 @@ class LightTree {
 
   /// The whole light that an emitter is a part of, or null.
   [[nodiscard]] const WholeLight* whole_of(std::uint32_t emitter) const { return places_[emitter].whole; }
+
+  /// The lights in the order in which they are chosen among; nothing if the tree has levels above them or
+  /// emitters among them.
+  [[nodiscard]] std::optional<LightRow> row() const;
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;

@@ -67,19 +67,8 @@ QuadLight::QuadLight(const std::array<std::uint32_t, 2>& emitters, const std::ar
                      float radiance_luminance)
     : emitters_(emitters),
       halves_(halves),
-      density_{0.5 / area(halves[0]), 0.5 / area(halves[1])},
+      densities_{0.5 / area(halves[0]), 0.5 / area(halves[1])},
       view_(view_of(halves, radiance_luminance)) {}
-
-QuadLight::Point QuadLight::sample(const Vec2& u) const {
-  const double s = u.x, t = u.y;
-  if (s + t <= 1) return {emitters_[0], point_at(halves_[0], s, t)};
-  return {emitters_[1], point_at(halves_[1], 1 - s, 1 - t)};
-}
-
-PdfSolidAngle QuadLight::pdf(double pmf, std::uint32_t emitter, const Connection& connection) const {
-  const double density = density_[emitter == emitters_[0] ? 0 : 1];
-  return to_solid_angle({static_cast<float>(pmf * density)}, connection.distance2, connection.cos_light);
-}
 
 std::vector<QuadLight> find_quad_lights(std::span<const Emitter> emitters, const std::vector<bool>& free) {
   const Neighbours neighbours(emitters);

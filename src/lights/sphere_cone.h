@@ -12,7 +12,7 @@ namespace lemma {
 /// sampled.
 class SphereCone {
  public:
-  SphereCone(const Vec3d& centre, double radius, const Vec3& x) {
+  [[gnu::always_inline]] SphereCone(const Vec3d& centre, double radius, const Vec3& x) {
     const Vec3d to_centre = centre - Vec3d(x);
     const double distance2 = dot(to_centre, to_centre);
     can_be_sampled_ = can_be_sampled(radius, distance2);
@@ -39,13 +39,13 @@ class SphereCone {
   [[nodiscard]] double solid_angle() const { return 2 * std::numbers::pi * one_minus_cos_; }
 
   /// Whether a unit direction lies within.
-  [[nodiscard]] bool holds(const Vec3d& w) const {
+  [[gnu::always_inline, nodiscard]] bool holds(const Vec3d& w) const {
     const Vec3d apart = w - axis_;
     return 0.5 * dot(apart, apart) <= one_minus_cos_;
   }
 
   /// Unit direction, uniform over the cone, for u uniform in [0,1)^2.
-  [[nodiscard]] Vec3d sample(const Vec2& u) const {
+  [[gnu::always_inline, nodiscard]] Vec3d sample(const Vec2& u) const {
     const double below_axis = u.x * one_minus_cos_;  // 1 - cos of the angle to the axis
     const double sine = std::sqrt(below_axis * (2 - below_axis));
     const auto [sin_phi, cos_phi] = sin_cos_turn(double{u.y});

@@ -1,63 +1,57 @@
 #include "src/core/warp.h"
 #include "src/lights/light_tree.h"
-#include "src/lights/lobe_sector.h"
-#include "src/lights/sphere_cone.h"
 #include "src/lights/triangle_sampling.h"
+#include "src/lights/whole_view.h"
 
 namespace lemma {
 namespace {
 
 constexpr float kLargestBelow1 = 1 - 0x1p-24f;
 
-/// A whole light as seen from a point: directions uniform over the cone of its bounding sphere, or drawn by
-/// the lobe of the surface there.
-class WholeView {
- public:
-  WholeView(const WholeLight& light, const LightQuery& at)
-      : cone_(light.centre, light.radius, at.x), lobe_(LobeSector::find(at.reflection, cone_)) {}
-
-  /// For u uniform in [0, 1)^2; nothing if the direction misses the cone.
-  [[nodiscard]] std::optional<Vec3d> sample(const Sampler::ChoicePair& u) const {
-    const auto [by_lobe, x] = decide(u.x, lobe_ ? lobe_->share() : 0);
-    if (!by_lobe) return cone_.sample({x, u.y});
-    const Vec3d w = lobe_->sample({x, u.y});
-    return cone_.holds(w) ? std::optional(w) : std::nullopt;
-  }
-
-  /// @param to_light  within the cone
-  [[nodiscard]] PdfSolidAngle pdf(double pmf, const Vec3d& to_light) const {
-    const double uniform = 1 / cone_.solid_angle();
-    if (!lobe_) return {static_cast<float>(pmf * uniform)};
-    const double share = lobe_->share(), by_lobe = lobe_->pdf(normalize(to_light)).value;
-    return {static_cast<float>(pmf * ((1 - share) * uniform + share * by_lobe))};
-  }
-
- private:
-  SphereCone cone_;
-  std::optional<LobeSector> lobe_;
-};
+/// Whole lights that a point sees.
+WholeView view_of(const WholeLight& light, const LightQuery& at) {
+  const SphereCone cone(light.centre, light.radius, at.x);
+  return {cone, LobeSector::find(at.reflection, cone).value_or(LobeSector())};
+}
 
 /// A light by a tree (light_tree.h), by what the surface reflects of it, at a cost that grows with the
 /// logarithm of their number; then a direction uniform over its solid angle, or that of a WholeView if it is
 /// a whole light.
-class TreeSampler final : public LightSampler {
+class TreeSampler final : public LightSampler, private LightWaveSampler {
  public:
-  explicit TreeSampler(std::span<const Emitter> emitters) : emitters_(emitters), tree_(emitters) {}
+  explicit TreeSampler(std::span<const Emitter> emitters)
+      : emitters_(emitters), tree_(emitters), row_(tree_.row()), row_waves_(light_row_waves()) {}
 
   std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const override {
-    const auto [x, y] = random.next_choice_pair();
-    const auto light = tree_.choose(at, x);
-    if (!light) return std::nullopt;
-    if (light->whole != nullptr) return sample_whole(at, *light, {light->u, y});
-    const Vec2 u(std::min(static_cast<float>(light->u), kLargestBelow1), y);
-    return light->quad != nullptr ? sample_quad(at, *light, u) : sample_emitter(at, *light, u);
+    return sample(at, random.next_choice_pair());
+  }
+
+  const LightWaveSampler* waves() const override { return row_ ? this : nullptr; }
+
+  void sample_wave(const LightQueryWave& at, std::size_t count, const ChoicePairWave& u,
+                   LightSampleWave& samples) const override {
+    LightRowScratch& s = scratch();
+    row_waves_.sample(*row_, at, count, u, s, samples);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (s.undone[i] == 0) continue;
+      samples.set(i, sample(at[i], Sampler::ChoicePair{u.x[i], u.y[i]}).value_or(LightSample{}));
+    }
+  }
+
+  void pdf_wave(const LightQueryWave& at, std::size_t count, const Wave<std::uint32_t>& emitter,
+                const VecWave& y, Wave<float>& pdfs) const override {
+    LightRowScratch& s = scratch();
+    row_waves_.pdf(*row_, at, count, emitter, y, s, pdfs);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (s.undone[i] != 0) pdfs[i] = pdf(at[i], emitter[i], y[i]).value;
+    }
   }
 
   PdfSolidAngle pdf(const LightQuery& at, std::uint32_t emitter, const Vec3& y) const override {
     const auto connection = connect(emitters_[emitter], at.x, Vec3d(y));
     if (!connection) return {0};
     const LightTree::Choice light = tree_.choice_of(at, emitter);
-    if (light.whole != nullptr) return WholeView(*light.whole, at).pdf(light.pmf, connection->to_light);
+    if (light.whole != nullptr) return view_of(*light.whole, at).pdf(light.pmf, connection->to_light);
     if (light.quad != nullptr) return light.quad->pdf(light.pmf, emitter, *connection);
     const Triangle& triangle = emitters_[emitter].shape;
     if (tree_.samples_area(at.x, emitter)) return area_pdf(light.pmf, triangle, *connection);
@@ -67,14 +61,27 @@ class TreeSampler final : public LightSampler {
   const WholeLight* whole_of(std::uint32_t emitter) const override { return tree_.whole_of(emitter); }
 
  private:
+  /// Of one wave at a time.
+  static LightRowScratch& scratch() {
+    thread_local LightRowScratch of_thread;
+    return of_thread;
+  }
+
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& at, const Sampler::ChoicePair& u) const {
+    const auto light = tree_.choose(at, u.x);
+    if (!light) return std::nullopt;
+    if (light->whole != nullptr) return sample_whole(at, *light, {light->u, u.y});
+    const Vec2 v(std::min(static_cast<float>(light->u), kLargestBelow1), u.y);
+    return light->quad != nullptr ? sample_quad(at, *light, v) : sample_emitter(at, *light, v);
+  }
+
   [[nodiscard]] std::optional<LightSample> sample_whole(const LightQuery& at, const LightTree::Choice& light,
                                                         const Sampler::ChoicePair& u) const {
-    const WholeView seen(*light.whole, at);
-    const auto w = seen.sample(u);
-    if (!w) return std::nullopt;
-    const PdfSolidAngle pdf = seen.pdf(light.pmf, *w);
-    if (!(pdf.value > 0)) return std::nullopt;
-    const Vec3 wi(*w);
+    const WholeView seen = view_of(*light.whole, at);
+    const auto [within, w] = seen.sample(u.x, u.y);
+    const PdfSolidAngle pdf = seen.pdf(light.pmf, w);
+    if (!within || !(pdf.value > 0)) return std::nullopt;
+    const Vec3 wi(w);
     return LightSample{.wi = wi,
                        .pdf = pdf,
                        .radiance = emitters_[light.whole->emitters.front()].radiance,
@@ -114,6 +121,8 @@ class TreeSampler final : public LightSampler {
 
   std::span<const Emitter> emitters_;
   LightTree tree_;
+  std::optional<LightRow> row_;
+  LightRowWaves row_waves_;
 };
 
 }  // namespace

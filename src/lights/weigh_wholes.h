@@ -6,6 +6,7 @@
 
 #include "src/lights/light_sampler.h"
 #include "src/lights/whole_light.h"
+#include "src/lights/whole_weight.h"
 
 namespace lemma {
 
@@ -20,14 +21,16 @@ struct WholeBlock {
   Values luminance{};
 
   void set(std::size_t place, const WholeLight& light, float radiance_luminance);
+  [[nodiscard]] WholeOutline operator[](std::size_t i) const {
+    return {{x[i], y[i], z[i]}, {rest_x[i], rest_y[i], rest_z[i]}, radius2[i], luminance[i]};
+  }
 };
+
+[[nodiscard]] WholeOutline outline_of(const WholeLight& light, float radiance_luminance);
 
 /// The weights of a block's lights as seen from a point, in float32, compiled for one instruction set.
 struct WeighWholes {
-  /// Luminance x solid angle of the sphere's cone x about the mean over the cone of max(0, cosine), which is
-  /// that of its largest and its smallest value, x the mean of what is reflected (Reflection::mean). Positive
-  /// if the cone reaches above the horizon, and up to 10^-5 below. -1 where there is no light, or x is so
-  /// near that the light cannot be sampled as a whole (SphereCone::can_be_sampled, up to rounding).
+  /// Of each place whole_weight().
   /// @param count  places that are asked for, from the first on
   void (*function)(const WholeBlock& block, std::size_t count, const LightQuery& at,
                    WholeBlock::Values& weights);
