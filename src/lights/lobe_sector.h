@@ -66,16 +66,16 @@ class LobeSector {
   }
 
   /// Whether it serves better than directions uniform over the cone.
-  [[nodiscard]] bool serves() const { return serves_; }
+  [[gnu::always_inline, nodiscard]] bool serves() const { return serves_; }
 
   /// The part of the samples of the light that should be drawn here, the rest uniformly over the cone: that
   /// of the light that the lobe reflects; in (0, 1).
-  [[nodiscard]] double share() const { return share_; }
+  [[gnu::always_inline, nodiscard]] double share() const { return share_; }
 
   /// Unit direction for u uniform in [0,1)^2; it may miss the cone.
   [[gnu::always_inline, nodiscard]] Vec3d sample(const Vec2& u) const {
     const double fallen_by = inner_ - width_ * elementary::log1p(double{u.x} * (fallen_ - 1));
-    const double below = std::min(std::max(fallen_by, 0.0), 2.0);  // 1 - cos
+    const double positive = fallen_by < 0 ? 0 : fallen_by, below = 2 < positive ? 2 : positive;  // 1 - cos
     const double sine = std::sqrt(below * (2 - below));
     const auto [sin_phi, cos_phi] =
         sin_cos_turn(half_turn_ * (0.5 * std::numbers::inv_pi) * (2 * double{u.y} - 1));
@@ -94,7 +94,8 @@ class LobeSector {
 
  private:
   /// Not over a cone so much narrower than the lobe that directions uniform over it serve.
-  [[nodiscard]] static bool may_serve(const Reflection& reflection, const SphereCone& cone) {
+  [[gnu::always_inline, nodiscard]] static bool may_serve(const Reflection& reflection,
+                                                          const SphereCone& cone) {
     constexpr float narrowest = 0.5f;
     const auto cone_size = static_cast<float>(cone.one_minus_cos());
     return (reflection.peak != 0) & !(cone_size < narrowest * reflection.width);

@@ -10,7 +10,8 @@ namespace lemma {
 class WholeView {
  public:
   /// @param lobe  of the cone
-  WholeView(const SphereCone& cone, const LobeSector& lobe) : cone_(cone), lobe_(lobe) {}
+  [[gnu::always_inline]] WholeView(const SphereCone& cone, const LobeSector& lobe)
+      : cone_(cone), lobe_(lobe) {}
 
   /// A direction means nothing unless it lies within the cone.
   struct Direction {
@@ -20,8 +21,9 @@ class WholeView {
 
   /// For u uniform in [0, 1)^2.
   [[gnu::always_inline, nodiscard]] Direction sample(double u, float v) const {
-    const bool serves = lobe_.serves();
-    const auto [by_lobe, rest] = decide(u, serves ? lobe_.share() : 0);
+    const double share = lobe_.serves() ? lobe_.share() : 0;
+    const bool by_lobe = u < share;
+    const float rest = rest_of_choice(u, share, by_lobe);
     const Vec3d lobe = lobe_.sample({rest, v}), cone = cone_.sample({rest, v});
     const Vec3d w(by_lobe ? lobe.x : cone.x, by_lobe ? lobe.y : cone.y, by_lobe ? lobe.z : cone.z);
     const bool within = !by_lobe | cone_.holds(w);
