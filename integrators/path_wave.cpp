@@ -14,29 +14,6 @@ ScatterSample glass_sample(const Scene& scene, const Ray& ray, const Hit& hit, S
   return Vertex<flat>(scene, ray, hit).sample(random).value();
 }
 
-// Lane k becomes what lane lanes[k] was; lanes[k] grows with k.
-
-template <class T>
-void keep(Wave<T>& wave, const Wave<std::uint32_t>& lanes, std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) wave[k] = wave[lanes[k]];
-}
-void keep(VecWave& wave, const Wave<std::uint32_t>& lanes, std::size_t count) {
-  keep(wave.x, lanes, count), keep(wave.y, lanes, count), keep(wave.z, lanes, count);
-}
-void keep(RgbWave& wave, const Wave<std::uint32_t>& lanes, std::size_t count) {
-  keep(wave.r, lanes, count), keep(wave.g, lanes, count), keep(wave.b, lanes, count);
-}
-
-// Lane k of `to` becomes lane lanes[k] of `from`.
-
-template <class T>
-void gather(const Wave<T>& from, const Wave<std::uint32_t>& lanes, std::size_t count, Wave<T>& to) {
-  for (std::size_t k = 0; k < count; ++k) to[k] = from[lanes[k]];
-}
-void gather(const VecWave& from, const Wave<std::uint32_t>& lanes, std::size_t count, VecWave& to) {
-  gather(from.x, lanes, count, to.x), gather(from.y, lanes, count, to.y), gather(from.z, lanes, count, to.z);
-}
-
 }  // namespace
 
 PathWave::PathWave(const WaveTechnique& technique, const World& world)
@@ -55,6 +32,7 @@ PathWave::PathWave(const WaveTechnique& technique, const World& world)
     vertices_.query.peak[i] = alike_everywhere.peak;
     vertices_.query.width[i] = alike_everywhere.width;
   }
+  if (technique.model.glass) from_glass_.reserve(kWaveSize);
   if (lights_ == nullptr) {
     queries_.resize(kWaveSize);
     for (LightQuery& query : queries_) world.lights.reserve(query);
@@ -69,7 +47,7 @@ void PathWave::radiances(const RayWave& rays, const HitWave& first, std::size_t 
     split_hits();
     add_emission(radiance);
     if (depth_ > technique_.options.max_depth) {
-      tracer.counts.paths_cut += surfaces_.count + glass_.count;
+      tracer.counts.paths_cut += surfaces_.count() + glass_.count();
       return;
     }
     if (technique_.model.glass) pass_glass();
@@ -114,8 +92,8 @@ void PathWave::split_hits() {
 
 void PathWave::add_emission(RgbWave& radiance) {
   if (depth_ > 1) weigh_emission();
-  for (std::size_t k = 0; k < emitters_.count; ++k) {
-    const std::size_t i = emitters_.lane[k];
+  for (std::size_t k = 0; k < emitters_.count(); ++k) {
+    const std::size_t i = emitters_[k];
     // No light sample could have found what the camera sees directly.
     const float weight = depth_ == 1 ? 1.0f : emission_.weight[k];
     const Rgb emission = emitted(world_.scene.emitters[emitter_[i]], rays_.origin[i]);
@@ -124,21 +102,22 @@ void PathWave::add_emission(RgbWave& radiance) {
 }
 
 void PathWave::weigh_emission() {
-  const auto& [lanes, count] = emitters_;
+  const LaneList& lanes = emitters_;
+  const std::size_t count = lanes.count();
   const bool by_both = technique_.weighting == Weighting::power || technique_.weighting == Weighting::balance;
   if (by_both) {
-    gather(emitter_, lanes, count, emission_.emitter);
+    lanes.gather(emitter_, emission_.emitter);
     for (std::size_t k = 0; k < count; ++k) {
       const Hit hit = hits_[lanes[k]];
       emission_.y.set(k, Vec3(point_at(world_.scene.triangles[hit.triangle], hit.b1, hit.b2)));
     }
     if (lights_ != nullptr) {
       const LightQueryWave& at = vertices_.query;
-      gather(at.x, lanes, count, emission_.from.x), gather(at.n, lanes, count, emission_.from.n);
-      gather(at.mirror, lanes, count, emission_.from.mirror);
-      gather(at.diffuse, lanes, count, emission_.from.diffuse);
-      gather(at.peak, lanes, count, emission_.from.peak);
-      gather(at.width, lanes, count, emission_.from.width);
+      lanes.gather(at.x, emission_.from.x), lanes.gather(at.n, emission_.from.n);
+      lanes.gather(at.mirror, emission_.from.mirror);
+      lanes.gather(at.diffuse, emission_.from.diffuse);
+      lanes.gather(at.peak, emission_.from.peak);
+      lanes.gather(at.width, emission_.from.width);
       lights_->pdf_wave(emission_.from, count, emission_.emitter, emission_.y, emission_.pdf_light);
     } else {
       for (std::size_t k = 0; k < count; ++k) {
@@ -150,7 +129,7 @@ void PathWave::weigh_emission() {
       }
     }
   }
-  gather(pdf_brdf_, lanes, count, emission_.pdf_brdf);
+  lanes.gather(pdf_brdf_, emission_.pdf_brdf);
   weight_stages_.emission(technique_.weighting, emission_.pdf_brdf, emission_.pdf_light, count,
                           emission_.weight);
 }
@@ -158,8 +137,8 @@ void PathWave::weigh_emission() {
 /// Mirrors and refracts the paths that meet glass, where no light is sampled.
 void PathWave::pass_glass() {
   from_glass_.clear();
-  for (std::size_t k = 0; k < glass_.count; ++k) {
-    const std::size_t i = glass_.lane[k];
+  for (std::size_t k = 0; k < glass_.count(); ++k) {
+    const std::size_t i = glass_[k];
     GlassPath path{id_[i], throughput_[i], random_[i], {}};
     const ScatterSample next = glass_sample(world_.scene, rays_[i], hits_[i], path.random);
     path.ray = {next.origin, next.wi};
@@ -170,8 +149,9 @@ void PathWave::pass_glass() {
 }
 
 void PathWave::find_vertices() {
-  const auto& [lanes, count] = surfaces_;
-  keep(id_, lanes, count), keep(throughput_, lanes, count), random_.keep(lanes, count);
+  const LaneList& lanes = surfaces_;
+  const std::size_t count = lanes.count();
+  lanes.keep(id_), lanes.keep(throughput_), random_.keep(lanes);
   for (std::size_t k = 0; k < count; ++k) {
     const Hit hit = hits_[lanes[k]];
     touches_.set_triangle(k, world_.scene.triangles[hit.triangle]);
@@ -183,15 +163,15 @@ void PathWave::find_vertices() {
       set_material(k, world_.scene.materials[material_index(world_.scene, hit)]);
     }
   }
-  gather(rays_.direction, lanes, count, touches_.direction);
+  lanes.gather(rays_.direction, touches_.direction);
   count_ = count;
   const auto find = technique_.model.smooth_normals ? vertex_stages_.find_smooth : vertex_stages_.find_flat;
   find(touches_, count_, vertices_);
 }
 
 void PathWave::set_material(std::size_t lane, const Material& material) {
+  if (!technique_.model.specular) return vertices_.materials.kd.set(lane, material.kd);
   vertices_.materials.set(lane, material);
-  if (!technique_.model.specular) return;
   vertices_.query.diffuse[lane] = material.outline.diffuse;
   vertices_.query.peak[lane] = material.outline.peak;
   vertices_.query.width[lane] = material.outline.width;
@@ -234,27 +214,27 @@ void PathWave::trace_lights(Tracer& tracer, RgbWave& radiance) {
     points_.add_if(reflects && !whole && is_uncovered(i), i);
   }
   trace_whole_lights(tracer, radiance);
-  gather(vertices_.query.x, points_.lane, points_.count, shadow_rays_.origin);
-  gather(samples_.to_light, points_.lane, points_.count, shadow_rays_.direction);
-  gather(samples_.visible_until, points_.lane, points_.count, shadow_rays_.t_max);
-  tracer.occluded_rays(shadow_rays_, points_.count, blocked_);
-  for (std::size_t k = 0; k < points_.count; ++k) {
-    if (blocked_[k] == 0) add_seen(points_.lane[k], radiance);
+  points_.gather(vertices_.query.x, shadow_rays_.origin);
+  points_.gather(samples_.to_light, shadow_rays_.direction);
+  points_.gather(samples_.visible_until, shadow_rays_.t_max);
+  tracer.occluded_rays(shadow_rays_, points_.count(), blocked_);
+  for (std::size_t k = 0; k < points_.count(); ++k) {
+    if (blocked_[k] == 0) add_seen(points_[k], radiance);
   }
 }
 
 void PathWave::trace_whole_lights(Tracer& tracer, RgbWave& radiance) {
   const Scene& scene = world_.scene;
-  gather(vertices_.query.x, whole_.lane, whole_.count, shadow_rays_.origin);
-  gather(samples_.wi, whole_.lane, whole_.count, shadow_rays_.direction);
+  whole_.gather(vertices_.query.x, shadow_rays_.origin);
+  whole_.gather(samples_.wi, shadow_rays_.direction);
   shadow_rays_.t_max = rays_.t_max;
-  tracer.closest_hits(shadow_rays_, whole_.count, shadow_hits_);
-  for (std::size_t k = 0; k < whole_.count; ++k) {
+  tracer.closest_hits(shadow_rays_, whole_.count(), shadow_hits_);
+  for (std::size_t k = 0; k < whole_.count(); ++k) {
     if (!shadow_hits_.is_hit(k)) continue;
     Hit hit = shadow_hits_[k];
     if (technique_.model.overlays) hit = top_of(scene, shadow_rays_[k], hit);
     const std::uint32_t emitter = scene.facets[hit.triangle].emitter;
-    const std::size_t i = whole_.lane[k];
+    const std::size_t i = whole_[k];
     if (emitter == kNoEmitter || world_.lights.whole_of(emitter) != samples_.whole[i]) continue;
     if (emits_towards(scene.emitters[emitter], shadow_rays_.origin[k])) add_seen(i, radiance);
   }
@@ -300,15 +280,16 @@ void PathWave::scatter() {
 void PathWave::go_on(Tracer& tracer) {
   alive_.clear();
   for (std::size_t i = 0; i < count_; ++i) alive_.add_if(continued_.alive[i] != 0, i);
-  const auto& [lanes, count] = alive_;
-  keep(id_, lanes, count), keep(throughput_, lanes, count), random_.keep(lanes, count);
-  keep(vertices_.query.x, lanes, count), keep(vertices_.query.n, lanes, count);
+  const LaneList& lanes = alive_;
+  const std::size_t count = lanes.count();
+  lanes.keep(id_), lanes.keep(throughput_), random_.keep(lanes);
+  lanes.keep(vertices_.query.x), lanes.keep(vertices_.query.n);
   if (technique_.model.specular) {
-    keep(vertices_.query.mirror, lanes, count), keep(vertices_.query.diffuse, lanes, count);
-    keep(vertices_.query.peak, lanes, count), keep(vertices_.query.width, lanes, count);
+    lanes.keep(vertices_.query.mirror), lanes.keep(vertices_.query.diffuse);
+    lanes.keep(vertices_.query.peak), lanes.keep(vertices_.query.width);
   }
-  gather(scattered_.pdf, lanes, count, pdf_brdf_);
-  gather(world_wi_, lanes, count, rays_.direction);
+  lanes.gather(scattered_.pdf, pdf_brdf_);
+  lanes.gather(world_wi_, rays_.direction);
   rays_.origin = vertices_.query.x;
   count_ = count;
   if (technique_.model.glass) go_on_from_glass();

@@ -6,6 +6,7 @@
 #include "integrators/integrator.h"
 #include "integrators/vertex_wave.h"
 #include "integrators/weight_wave.h"
+#include "src/core/lane_list.h"
 
 namespace lemma {
 
@@ -66,19 +67,7 @@ class PathWave final : public WaveIntegrator {
   Wave<float> pdf_brdf_;
   VertexWave vertices_;
 
-  // Lanes of some kind.
-  struct Lanes {
-    Wave<std::uint32_t> lane;
-    std::size_t count = 0;
-
-    void clear() { count = 0; }
-    /// Without a branch.
-    void add_if(bool wanted, std::size_t i) {
-      lane[count] = static_cast<std::uint32_t>(i);
-      count += wanted ? 1 : 0;
-    }
-  };
-  Lanes emitters_, glass_, surfaces_, whole_, points_, alive_;
+  LaneList emitters_, glass_, surfaces_, whole_, points_, alive_;
 
   // Paths that glass sends on, by themselves until those of the surfaces are found.
   struct GlassPath {

@@ -87,12 +87,9 @@ Sampler SamplerWave::operator[](std::size_t lane) const {
   return sampler;
 }
 
-void SamplerWave::keep(const Wave<std::uint32_t>& kept, std::size_t count) {
-  if (sequence_ == Sequence::independent) {
-    for (std::size_t i = 0; i < count; ++i) samplers_[i] = samplers_[kept[i]];
-  } else {
-    for (std::size_t i = 0; i < count; ++i) keys_[i] = keys_[kept[i]];
-  }
+void SamplerWave::keep(const LaneList& lanes) {
+  if (sequence_ == Sequence::sobol) return lanes.keep(keys_);
+  for (std::size_t k = 0; k < lanes.count(); ++k) samplers_[k] = samplers_[lanes[k]];
 }
 
 void SamplerWave::draw(std::size_t count, const Wave<std::uint32_t>& wanted, Wave<float>& u) {

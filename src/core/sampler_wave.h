@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "src/core/lane_list.h"
 #include "src/core/sampler.h"
 #include "src/core/wave.h"
 
@@ -33,8 +35,8 @@ class SamplerWave {
   void set(std::size_t lane, const Sampler& sampler);
   [[nodiscard]] Sampler operator[](std::size_t lane) const;
 
-  /// Lane k becomes what lane kept[k] was; kept[k] grows with k.
-  void keep(const Wave<std::uint32_t>& kept, std::size_t count);
+  /// As LaneList::keep().
+  void keep(const LaneList& lanes);
 
   /// Sampler::next() of the lanes where `wanted` is not 0; the others draw nothing and u means nothing.
   void draw(std::size_t count, const Wave<std::uint32_t>& wanted, Wave<float>& u);

@@ -16,7 +16,7 @@ void expect_draws_of_samplers(SamplerWave& wave, Sequence sequence, std::size_t 
   }
   Wave<float> u;
   ChoicePairWave pairs;
-  Wave<std::uint32_t> wanted, kept;
+  Wave<std::uint32_t> wanted;
   for (int round = 0; round < 3; ++round) {
     wave.draw_pairs(count, pairs);
     for (std::size_t i = 0; i < count; ++i) {
@@ -34,9 +34,11 @@ void expect_draws_of_samplers(SamplerWave& wave, Sequence sequence, std::size_t 
       ASSERT_EQ(pairs.y[i], pair.y);
     }
     // Every second lane goes on.
-    for (std::uint32_t i = 0; i < (count + 1) / 2; ++i) kept[i] = 2 * i, single[i] = single[2 * i];
-    count = (count + 1) / 2;
-    wave.keep(kept, count);
+    LaneList kept;
+    for (std::size_t i = 0; i < count; ++i) kept.add_if(i % 2 == 0, i);
+    for (std::size_t k = 0; k < kept.count(); ++k) single[k] = single[kept[k]];
+    count = kept.count();
+    wave.keep(kept);
   }
   Sampler last = wave[count - 1];
   ASSERT_EQ(last.next(), single[count - 1].next());
