@@ -24,7 +24,8 @@ struct Reflection {
   [[nodiscard]] float mean(const Vec3& axis, float one_minus_cos) const {
     const Vec3 apart = axis - mirror;
     const float both = width + one_minus_cos;
-    return diffuse + peak * (width / both) * elementary::exp(-0.5f * dot(apart, apart) / both);
+    const float fallen = elementary::decay(0.5f * dot(apart, apart) / both);
+    return diffuse + peak * (width / both) * fallen;
   }
 };
 

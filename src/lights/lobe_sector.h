@@ -54,11 +54,11 @@ class LobeSector {
     // Both ways of sampling waste a part of what they draw: the sector what misses the cone, if the outline's
     // mean over the cone is right; the cone where the lobe is dark: by the second moment of a lobe in its
     // middle, all but 2 / (2 + cone / lobe).
-    const float fallen = elementary::exp((inner - outer) / width);
+    const float fallen = elementary::decay((outer - inner) / width);
     const float mass = width * half_turn * (1 - fallen);  // of half the sector, over the density at its edge
     const float lobe = reflection.mean(axis, cone_size) - reflection.diffuse;
     const float kept = lobe * cone_size * kPi;
-    const float drawn = reflection.peak * elementary::exp(-inner / width) * mass;
+    const float drawn = reflection.peak * elementary::decay(inner / width) * mass;
     serves_ = may_serve(reflection, cone) & (kept * (2 * width + cone_size) > 2 * width * drawn);
     inner_ = inner, fallen_ = fallen, half_turn_ = half_turn;
     peak_density_ = 1 / (2 * double{mass});
@@ -89,7 +89,7 @@ class LobeSector {
   [[gnu::always_inline, nodiscard]] PdfSolidAngle pdf(const Vec3d& w) const {
     const Vec3d difference = w - mirror_;
     const double below = 0.5 * dot(difference, difference);
-    return {static_cast<float>(peak_density_ * elementary::exp((inner_ - below) / width_))};
+    return {static_cast<float>(peak_density_ * elementary::decay((below - inner_) / width_))};
   }
 
  private:
