@@ -1,13 +1,13 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "src/lights/light_bounds.h"
 #include "src/lights/light_sampler.h"
 #include "src/lights/quad_light.h"
-#include "src/lights/whole_weight.h"
+#include "src/lights/weigh_wholes.h"
 
 namespace lemma {
 
@@ -32,12 +32,11 @@ struct LightRow {
 
 /// What is found on the way from a wave's points to their samples and densities.
 struct LightRowScratch {
-  static constexpr std::size_t kLights = 16;
-  Wave<double> weight[kLights];
-  Wave<double> sum, target, own;  // `own`: of the light chosen
-  Wave<std::uint32_t> chosen;     // index of a light
-  Wave<std::uint32_t> is_chosen;  // not 0 if one is
-  Wave<double> pmf, u;            // of the light; what the choice leaves of its number
+  Wave<double> weight[WholeBlock::kSize];  // of each light: a node has no more children
+  Wave<double> sum, target, own;           // `own`: of the light chosen
+  Wave<std::uint32_t> chosen;              // index of a light
+  Wave<std::uint32_t> is_chosen;           // not 0 if one is
+  Wave<double> pmf, u;                     // of the light; what the choice leaves of its number
   // Of the light chosen: of a whole one ...
   Wave<std::uint32_t> is_whole;
   Wave<double> centre_x, centre_y, centre_z, radius;

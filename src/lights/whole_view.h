@@ -6,7 +6,7 @@
 namespace lemma {
 
 /// A whole light as seen from a point: directions uniform over the cone of its bounding sphere, or drawn by
-/// the lobe of the surface there. Without branches, for loops over points.
+/// the lobe of the surface there. In loops over points compilers turn its branches into selects.
 class WholeView {
  public:
   /// @param lobe  of the cone
@@ -24,8 +24,12 @@ class WholeView {
     const double share = lobe_.serves() ? lobe_.share() : 0;
     const bool by_lobe = u < share;
     const float rest = rest_of_choice(u, share, by_lobe);
-    const Vec3d lobe = lobe_.sample({rest, v}), cone = cone_.sample({rest, v});
-    const Vec3d w(by_lobe ? lobe.x : cone.x, by_lobe ? lobe.y : cone.y, by_lobe ? lobe.z : cone.z);
+    Vec3d w;
+    if (by_lobe) {
+      w = lobe_.sample({rest, v});
+    } else {
+      w = cone_.sample({rest, v});
+    }
     const bool within = !by_lobe | cone_.holds(w);
     return {within, w};
   }
@@ -34,8 +38,11 @@ class WholeView {
   /// @param to_light  within the cone
   [[gnu::always_inline, nodiscard]] PdfSolidAngle pdf(double pmf, const Vec3d& to_light) const {
     const double uniform = 1 / cone_.solid_angle();
-    const double share = lobe_.share(), by_lobe = lobe_.pdf(normalize(to_light)).value;
-    const double density = lobe_.serves() ? (1 - share) * uniform + share * by_lobe : uniform;
+    double density = uniform;
+    if (lobe_.serves()) {
+      const double share = lobe_.share(), by_lobe = lobe_.pdf(normalize(to_light)).value;
+      density = (1 - share) * uniform + share * by_lobe;
+    }
     return {static_cast<float>(pmf * density)};
   }
 
