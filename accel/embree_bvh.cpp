@@ -81,29 +81,32 @@ struct Packet {
   Packet(RTCRay16& packet, std::span<const Ray> rays) {
     for (std::size_t i = 0; i < kPacket; ++i) {
       valid[i] = i < rays.size() && is_finite(rays[i]) ? -1 : 0;
-      set_lane(packet, i, to_embree(valid[i] != 0 ? rays[i] : Ray{}));
+      set_lane(packet, i, to_embree(valid[i] != 0 ? rays[i] : Ray{Vec3(0), Vec3(0, 0, 1)}));
     }
   }
 
-  /// The rays of a wave's lanes from `begin` to `end`, or 16 of them. Loops that compilers make vector code
-  /// of.
+  /// The rays of a wave's lanes from `begin` to `end`, or 16 of them. Lanes without one hold a ray all the
+  /// same: where Embree has no packets of 16 for the machine, its checks look at all lanes. A loop that
+  /// compilers make vector code of.
   Packet(RTCRay16& packet, const RayWave& rays, std::size_t begin, std::size_t end) {
-    const auto copy = [&](const Wave<float>& from, float* to) {
-      std::copy_n(&from.values[begin], kPacket, to);
-    };
-    copy(rays.origin.x, packet.org_x), copy(rays.origin.y, packet.org_y), copy(rays.origin.z, packet.org_z);
-    copy(rays.direction.x, packet.dir_x), copy(rays.direction.y, packet.dir_y);
-    copy(rays.direction.z, packet.dir_z);
-    const float* t_max = &rays.t_max.values[begin];
+    const float* const org_x = &rays.origin.x.values[begin];
+    const float* const org_y = &rays.origin.y.values[begin];
+    const float* const org_z = &rays.origin.z.values[begin];
+    const float* const dir_x = &rays.direction.x.values[begin];
+    const float* const dir_y = &rays.direction.y.values[begin];
+    const float* const dir_z = &rays.direction.z.values[begin];
+    const float* const t_max = &rays.t_max.values[begin];
     const auto lanes = static_cast<int>(std::min(kPacket, end - begin));
     for (int i = 0; i < static_cast<int>(kPacket); ++i) {
-      const Ray ray{{packet.org_x[i], packet.org_y[i], packet.org_z[i]},
-                    {packet.dir_x[i], packet.dir_y[i], packet.dir_z[i]},
-                    0,
-                    t_max[i]};
-      valid[i] = (i < lanes) & is_finite(ray) ? -1 : 0;
-      packet.tnear[i] = nearest_of(ray), packet.tfar[i] = farthest_of(ray), packet.time[i] = 0;
-      packet.mask[i] = 0xFFFFFFFFu, packet.id[i] = 0, packet.flags[i] = 0;
+      const Ray ray{{org_x[i], org_y[i], org_z[i]}, {dir_x[i], dir_y[i], dir_z[i]}, 0, t_max[i]};
+      const bool is_ray = (i < lanes) & is_finite(ray);
+      valid[i] = is_ray ? -1 : 0;
+      packet.org_x[i] = is_ray ? ray.origin.x : 0, packet.org_y[i] = is_ray ? ray.origin.y : 0;
+      packet.org_z[i] = is_ray ? ray.origin.z : 0;
+      packet.dir_x[i] = is_ray ? ray.direction.x : 0, packet.dir_y[i] = is_ray ? ray.direction.y : 0;
+      packet.dir_z[i] = is_ray ? ray.direction.z : 1;
+      packet.tnear[i] = nearest_of(ray), packet.tfar[i] = is_ray ? farthest_of(ray) : 0;
+      packet.time[i] = 0, packet.mask[i] = 0xFFFFFFFFu, packet.id[i] = 0, packet.flags[i] = 0;
     }
   }
 

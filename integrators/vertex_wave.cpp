@@ -17,18 +17,20 @@ namespace {
 // Plain loops without branches, that compilers turn into vector code of the instruction set.
 
 template <bool kSmooth>
+[[gnu::always_inline]] inline Vec3 shading_normal(const TouchWave& touches, std::size_t i,
+                                                  const Vec3& geometric) {
+  if constexpr (!kSmooth) return geometric;
+  return smooth_normal(touches.normals(i), touches.b1[i], touches.b2[i], touches.direction[i], geometric);
+}
+
+template <bool kSmooth>
 void find(const TouchWave& touches, std::size_t count, VertexWave& vertices) {
   for (std::size_t i = 0; i < wave_end(count); ++i) {
     const Vec3 direction = touches.direction[i];
-    const float b1 = touches.b1[i], b2 = touches.b2[i];
-    const SurfacePoint point(touches.triangle(i), b1, b2, direction);
+    const SurfacePoint point(touches.triangle(i), touches.b1[i], touches.b2[i], direction);
     const Vec3 geometric(point.normal);
-    Vec3 normal = geometric;
-    if constexpr (kSmooth) {
-      normal = smooth_normal(touches.normals(i), b1, b2, direction, geometric);
-      vertices.geometric.set(i, geometric);
-    }
-    const Frame frame = frame_around(normal);
+    if constexpr (kSmooth) vertices.geometric.set(i, geometric);
+    const Frame frame = frame_around(shading_normal<kSmooth>(touches, i, geometric));
     const Vec3 wo = frame.to_local(-direction);
     vertices.query.x.set(i, point.origin);
     vertices.query.n.set(i, frame.n);

@@ -11,7 +11,7 @@ namespace lemma {
 namespace {
 
 constexpr int kTileSize = 16;
-static_assert(kTileSize <= PixelBlock::kSize && kTileSize * kTileSize <= kWaveSize);
+static_assert(kTileSize <= PixelBlock::kSize && std::size_t{kTileSize} * kTileSize <= kWaveSize);
 constexpr std::uint32_t kTimedSampleStride = 64;  // one sample of a tile in so many is timed
 
 bool is_radiance(const Rgb& c) {
