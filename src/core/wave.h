@@ -61,7 +61,7 @@ struct RayWave {
   }
 };
 
-/// Their hits; of a lane without one only `triangle` is set, to kNoTriangle.
+/// Their hits; of a lane without one `triangle` is kNoTriangle, and the rest any numbers.
 struct HitWave {
   static constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
   Wave<std::uint32_t> triangle;
