@@ -34,7 +34,9 @@ class TreeSampler final : public LightSampler, private LightWaveSampler {
     row_waves_.sample(*row_, at, count, u, s, samples);
     for (std::size_t i = 0; i < count; ++i) {
       if (s.undone[i] == 0) continue;
-      samples.set(i, sample(at[i], Sampler::ChoicePair{u.x[i], u.y[i]}).value_or(LightSample{}));
+      const std::optional<LightSample> single = sample(at[i], Sampler::ChoicePair{u.x[i], u.y[i]});
+      samples.pdf[i] = 0;
+      if (single) samples.set(i, *single);
     }
   }
 

@@ -70,17 +70,7 @@ TEST(Agreement, LightPartlyBelowTheHorizon) {
 /// A light that lies twice in one place: seen once, whatever finds it (src/scene/overlays.h).
 TEST(Agreement, LightsOnTopOfEachOther) {
   Scene scene = cornell("cornell-coplanar");
-  for (const Emitter& e : std::vector(scene.emitters)) {
-    Emitter copy = e;
-    copy.triangle = static_cast<std::uint32_t>(scene.triangles.size());
-    copy.radiance = e.radiance * 3;
-    copy.light = 1;
-    scene.triangles.push_back(e.shape);
-    scene.facets.push_back(
-        {scene.facets[e.triangle].material, static_cast<std::uint32_t>(scene.emitters.size())});
-    scene.emitters.push_back(copy);
-  }
-  scene.overlays = find_overlays(scene.triangles, scene.emitters);
+  test::double_lights(scene);
   expect_agreement({.scene = scene}, kScenes);
 }
 

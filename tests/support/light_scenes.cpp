@@ -98,4 +98,19 @@ Scene glossy_room(const BrdfOptions& brdf) {
   return scene;
 }
 
+void double_lights(Scene& scene) {
+  for (const Emitter& e : std::vector(scene.emitters)) {
+    Emitter copy = e;
+    copy.triangle = static_cast<std::uint32_t>(scene.triangles.size());
+    copy.radiance = e.radiance * 3;
+    copy.light = 1;
+    scene.triangles.push_back(e.shape);
+    scene.facets.push_back(
+        {scene.facets[e.triangle].material, static_cast<std::uint32_t>(scene.emitters.size())});
+    scene.emitters.push_back(copy);
+  }
+  scene.overlays = find_overlays(scene.triangles, scene.emitters);
+  scene.needs.model.overlays = true;
+}
+
 }  // namespace lemma::test

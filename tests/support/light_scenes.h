@@ -21,4 +21,7 @@ namespace lemma::test {
 /// cuts, to sharp ones; the largest albedo is 0.65, below sqrt(0.6), the limit of roulette `fixed`.
 [[nodiscard]] Scene glossy_room(const BrdfOptions& brdf);
 
+/// Puts another light, thrice as bright, into the place of each.
+void double_lights(Scene& scene);
+
 }  // namespace lemma::test

@@ -128,6 +128,7 @@ class ModelTest : public testing::Test {
  protected:
   [[nodiscard]] Scene scene(bool smooth_normals, bool textures, bool glass) const {
     Scene scene = test::own_scene("cornell-coplanar", 32, 18);
+    test::double_lights(scene);
     Model& model = scene.needs.model;
     model.smooth_normals = smooth_normals, model.textures = textures, model.glass = glass;
     for (const Triangle& t : scene.triangles) {
@@ -136,7 +137,7 @@ class ModelTest : public testing::Test {
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
       if (textures) scene.texture_of.push_back({i % 2 == 0 ? 0 : kNoTexture, {0.9f, 0.8f, 0.7f}});
-      if (glass) scene.glass.push_back({i == kGlass ? 1.5f : 1.0f, {0.9f, 1, 1}});
+      if (glass) scene.glass.push_back({i == kGlass ? 4.0f : 1.0f, {0.9f, 1, 1}});
     }
     if (textures) {
       scene.textures.emplace_back(
