@@ -2,6 +2,10 @@
 add_library(lemma_compiler INTERFACE)
 # Clang's -Wshadow also takes offence at parameters of friends that have the name of a member.
 target_compile_options(lemma_compiler INTERFACE -Wall -Wextra -Wconversion $<$<CXX_COMPILER_ID:GNU>:-Wshadow> -Wpedantic)
+# Loops over lanes take & and | of conditions on purpose, since && and || are branches, and tell GCC alone that their
+# waves do not overlap.
+target_compile_options(lemma_compiler INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical
+                       -Wno-bitwise-conditional-parentheses -Wno-unknown-pragmas>)
 if(LEMMA_WARNINGS_AS_ERRORS)
   target_compile_options(lemma_compiler INTERFACE -Werror)
 endif()
