@@ -52,13 +52,24 @@ inline void look_from(const Vertex<M>& vertex, const World& world, LightQuery& a
   return top_of(scene, to_light, {1, triangle, 0, 0}).triangle != triangle;
 }
 
-/// Whether an emitter that is hit belongs to the whole light of a sample; then it is the sample's emitter.
-[[nodiscard]] inline bool meets(const World& world, const Hit& hit, LightSample& light) {
+/// Whether what a ray from x hits is an emitter of the whole light that emits towards x.
+[[nodiscard]] inline bool is_of(const World& world, const WholeLight* whole, const Hit& hit, const Vec3& x) {
   const std::uint32_t emitter = world.scene.facets[hit.triangle].emitter;
-  if (world.lights.whole_of(emitter) != light.whole) return false;
-  light.emitter = emitter;
+  if (emitter == kNoEmitter || world.lights.whole_of(emitter) != whole) return false;
+  return emits_towards(world.scene.emitters[emitter], x);
+}
+
+/// Whether a hit of the ray from x of a whole light's sample is on that light; then it names the emitter.
+[[nodiscard]] inline bool meets(const World& world, const Hit& hit, const Vec3& x, LightSample& light) {
+  if (!is_of(world, light.whole, hit, x)) return false;
+  light.emitter = world.scene.facets[hit.triangle].emitter;
   light.to_light = light.wi * hit.t;
   return true;
+}
+
+/// Whether the ray of a light sample may pass by its light, which then must be what it meets first.
+[[nodiscard]] inline bool may_pass_by(const WholeLight* whole, float visible_until) {
+  return whole != nullptr && std::isinf(visible_until);
 }
 
 /// What the direction of a whole light's sample meets: one of the light's emitters, or something else.
@@ -69,19 +80,24 @@ template <Model M>
   std::optional<Hit> hit = tracer.closest_hit(ray);
   if (!hit) return LightFate::missed;
   if constexpr (M.overlays) hit = top_of(world.scene, ray, *hit);
-  const Emitter* emitter = emitter_at(world.scene, *hit);
-  if (emitter == nullptr || !emits_towards(*emitter, x)) return LightFate::missed;
-  return meets(world, *hit, light) ? LightFate::seen : LightFate::missed;
+  return meets(world, *hit, x, light) ? LightFate::seen : LightFate::missed;
 }
 
 /// What becomes of a light sample from x that is reflected there.
 template <Model M>
 [[nodiscard]] inline LightFate look_at_light(const World& world, const Vec3& x, Tracer& tracer,
                                              LightSample& light) {
-  if (light.whole != nullptr) return look_at_whole<M>(world, x, tracer, light);
+  if (may_pass_by(light.whole, light.visible_until)) return look_at_whole<M>(world, x, tracer, light);
   const Ray to_light{x, light.to_light, 0, light.visible_until};
-  if (M.overlays && is_covered(world.scene, to_light, light.emitter)) return LightFate::covered;
+  if (M.overlays && light.whole == nullptr && is_covered(world.scene, to_light, light.emitter))
+    return LightFate::covered;
   return tracer.occluded(to_light) ? LightFate::hidden : LightFate::seen;
+}
+
+/// Finds the emitter of a whole light that is seen, where it was not needed for that.
+template <Model M>
+void name_emitter(const World& world, const Vec3& x, Tracer& tracer, LightSample& light) {
+  if (light.emitter == kNoEmitter) static_cast<void>(look_at_whole<M>(world, x, tracer, light));
 }
 
 /// One light sample at a vertex: throughput f cos L / pdf times the Technique's weight (path.h); 0 if the
@@ -100,6 +116,7 @@ template <Model M, class Technique, class Observer>
   if (is_black(f_cos)) return lost(LightFate::below);
   const LightFate fate = look_at_light<M>(world, vertex.origin(), tracer, *light);
   if (fate != LightFate::seen) return lost(fate);
+  if constexpr (Observer::kRecords) name_emitter<M>(world, vertex.origin(), tracer, *light);
   const float weight = technique.light_weight(light->pdf, pdf_brdf);
   const Rgb contribution = throughput * (f_cos * light->radiance * (weight / light->pdf.value));
   observer.light(vertex, light, LightFate::seen, weight, contribution);

@@ -97,7 +97,7 @@ class ReportIntegrator final : public ObservedIntegrator<ReportIntegrator<M>> {
                                                 LightSample& light) {
     if (light.whole != nullptr) {
       const auto first = first_emitter(world.scene, tracer, ray, hit);
-      return first && meets(world, *first, light) ? std::optional(first->t) : std::nullopt;
+      return first && meets(world, *first, ray.origin, light) ? std::optional(first->t) : std::nullopt;
     }
     const Ray to_light{ray.origin, light.to_light, 0, light.visible_until};
     if (M.overlays && is_covered(world.scene, to_light, light.emitter)) return std::nullopt;

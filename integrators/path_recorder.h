@@ -14,6 +14,8 @@ namespace lemma {
 
 /// The observer that integrators have while they render: it sees nothing, and its calls vanish in compiling.
 struct NoObserver {
+  static constexpr bool kRecords = false;
+
   template <class... Any>
   void surface(const Any&...) {}
   template <class... Any>
@@ -30,6 +32,8 @@ struct NoObserver {
 /// The observer that writes down the events of one path.
 class PathRecorder {
  public:
+  static constexpr bool kRecords = true;
+
   using Strategies = std::span<const std::unique_ptr<const LightSampler>>;
 
   /// @param strategies  the light samplings whose densities are told, besides the one that is rendered with

@@ -209,7 +209,8 @@ void PathWave::sample_lights_one_by_one() {
 void PathWave::trace_lights(Tracer& tracer, RgbWave& radiance) {
   whole_.clear(), points_.clear();
   for (std::size_t i = 0; i < count_; ++i) {
-    const bool reflects = reflected_.reflects[i] != 0, whole = samples_.whole[i] != nullptr;
+    const bool reflects = reflected_.reflects[i] != 0;
+    const bool whole = may_pass_by(samples_.whole[i], samples_.visible_until[i]);
     whole_.add_if(reflects && whole, i);
     points_.add_if(reflects && !whole && is_uncovered(i), i);
   }
@@ -233,16 +234,14 @@ void PathWave::trace_whole_lights(Tracer& tracer, RgbWave& radiance) {
     if (!shadow_hits_.is_hit(k)) continue;
     Hit hit = shadow_hits_[k];
     if (technique_.model.overlays) hit = top_of(scene, shadow_rays_[k], hit);
-    const std::uint32_t emitter = scene.facets[hit.triangle].emitter;
     const std::size_t i = whole_[k];
-    if (emitter == kNoEmitter || world_.lights.whole_of(emitter) != samples_.whole[i]) continue;
-    if (emits_towards(scene.emitters[emitter], shadow_rays_.origin[k])) add_seen(i, radiance);
+    if (is_of(world_, samples_.whole[i], hit, shadow_rays_.origin[k])) add_seen(i, radiance);
   }
 }
 
 /// Whether a light sample that is reflected at this vertex can be seen, but for what stands in between.
 bool PathWave::is_uncovered(std::size_t lane) const {
-  if (!technique_.model.overlays) return true;
+  if (!technique_.model.overlays || samples_.whole[lane] != nullptr) return true;
   const Ray to_light{vertices_.query.x[lane], samples_.to_light[lane], 0, samples_.visible_until[lane]};
   return !is_covered(world_.scene, to_light, samples_.emitter[lane]);
 }

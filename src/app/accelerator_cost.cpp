@@ -30,7 +30,7 @@ Scene probe_of(const Scene& scene) {
 
 std::vector<AcceleratorCost> measure_costs(const Scene& scene) {
   const Scene probe = probe_of(scene);
-  const auto lights = light_samplers().front().value(probe.emitters);
+  const auto lights = light_samplers().front().value(probe.emitters, probe.triangles);
   const auto integrator = integrators().front().value(probe.needs.model, {});
   std::vector<AcceleratorCost> costs;
   for (const Named<AcceleratorFactory>& entry : accelerators()) {

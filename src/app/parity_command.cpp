@@ -37,7 +37,7 @@ ParityInput load(const ParityOptions& options) {
   input.camera.emplace(input.scene->scene.view);
   // One that draws points, which shadow rays end at.
   const auto by_points = find_named(light_samplers(), std::string_view("solid-angle")).value();
-  input.lights = by_points(input.scene->scene.emitters);
+  input.lights = by_points(input.scene->scene.emitters, input.scene->scene.triangles);
   return input;
 }
 

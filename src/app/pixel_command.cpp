@@ -21,9 +21,10 @@ void check_inside(const Pixel& pixel, const CameraView& view) {
       fmt::format("expected X,Y from 0,0 (upper left) to {},{}", view.width - 1, view.height - 1));
 }
 
-std::vector<std::unique_ptr<const LightSampler>> all_strategies(std::span<const Emitter> emitters) {
+std::vector<std::unique_ptr<const LightSampler>> all_strategies(const Scene& scene) {
   std::vector<std::unique_ptr<const LightSampler>> strategies;
-  for (const auto& entry : light_samplers()) strategies.push_back(entry.value(emitters));
+  for (const auto& entry : light_samplers())
+    strategies.push_back(entry.value(scene.emitters, scene.triangles));
   return strategies;
 }
 
@@ -46,7 +47,7 @@ ExitCode run_pixel(const RenderOptions& options, const World& world, const Integ
     if (options.explain) fmt::print("{}", path_text(sample));
     if (!options.explain_json.empty()) samples.push_back(path_json(sample));
   };
-  const auto strategies = all_strategies(world.scene.emitters);
+  const auto strategies = all_strategies(world.scene);
   RenderSettings settings = options.settings;
   settings.spp = options.spp.value_or(settings.spp);
   const ExplainedPixel pixel =

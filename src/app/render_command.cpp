@@ -144,7 +144,7 @@ ExitCode run_render(const RenderOptions& options) {
   if (reference) warn_of_reference(options, *reference);
 
   const BuiltAccelerator built = build_accelerator(options, scene);
-  const auto lights = options.lights.value(scene.emitters);
+  const auto lights = options.lights.value(scene.emitters, scene.triangles);
   const auto integrator = options.integrator.value(scene.needs.model, options.integrator_options);
   if (options.pixel) return run_pixel(options, {scene, *built.accel, *lights}, *integrator);
   Progress progress(options.quiet ? ProgressStyle::off : options.progress);

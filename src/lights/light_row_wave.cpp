@@ -1,4 +1,5 @@
 #include "src/lights/light_row.h"
+#include "src/lights/whole_core.h"
 #include "src/lights/whole_view.h"
 
 // This file is compiled once for every instruction set, by including itself.
@@ -108,7 +109,7 @@ void choose_single(std::size_t end, const Wave<double>& u, Scratch& s) {
 void fetch_whole(const LightRow::Light& light, std::size_t i, Scratch& s) {
   const Vec3d& centre = light.whole->centre;
   s.centre_x[i] = centre.x, s.centre_y[i] = centre.y, s.centre_z[i] = centre.z;
-  s.radius[i] = light.whole->radius;
+  s.radius[i] = light.whole->radius, s.core[i] = light.whole->core;
 }
 
 void fetch_emitter(const Triangle& t, std::size_t i, Scratch& s) {
@@ -157,7 +158,7 @@ void sample_wholes(const LightQueryWave& at, std::size_t end, const Wave<float>&
     samples.pdf[i] = within & (pdf > 0) ? pdf : 0;
     samples.wi.x[i] = wi.x, samples.wi.y[i] = wi.y, samples.wi.z[i] = wi.z;
     samples.to_light.x[i] = wi.x, samples.to_light.y[i] = wi.y, samples.to_light.z[i] = wi.z;
-    samples.visible_until[i] = std::numeric_limits<float>::infinity();
+    samples.visible_until[i] = WholeCore{centre_of(s, i), s.radius[i], s.core[i]}.visible_until(at.x[i], wi);
   }
 }
 

@@ -15,7 +15,8 @@ namespace lemma {
   entry(radiance_area, "radiance-area", "light by radiance, triangle and point by area (the report's A.1)")
 // clang-format on
 
-#define LEMMA_DECLARE(id, name, help) std::unique_ptr<const LightSampler> make_##id(std::span<const Emitter>);
+#define LEMMA_DECLARE(id, name, help) \
+  std::unique_ptr<const LightSampler> make_##id(std::span<const Emitter>, std::span<const Triangle>);
 LEMMA_LIGHT_SAMPLERS(LEMMA_DECLARE)
 
 std::span<const Named<LightSamplerFactory>> light_samplers() {

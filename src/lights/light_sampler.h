@@ -22,10 +22,11 @@ struct LightSample {
   PdfSolidAngle pdf;  // probability of the light times density of the direction; > 0
   Rgb radiance;       // emitted towards x
   Vec3 to_light;      // from x to the point on the emitter [scene units]; of a whole light the same as wi
-  // Of a point: what blocks the ray x + t to_light hits at t in (0, visible_until).
+  // What blocks the ray x + t to_light hits at t in (0, visible_until).
   float visible_until = std::numeric_limits<float>::infinity();
   std::uint32_t emitter = kNoEmitter;
-  // Or the whole light: the sample counts if one of its emitters is what the ray meets first.
+  // Or the whole light: where visible_until is infinite, the ray may pass it by, and the sample counts if one
+  // of its emitters is what the ray meets first.
   const WholeLight* whole = nullptr;
 };
 
@@ -135,7 +136,9 @@ class LightSampler {
                                           const Vec3& y) const = 0;
 };
 
-using LightSamplerFactory = std::unique_ptr<const LightSampler> (*)(std::span<const Emitter>);
+/// Of the emitters of a scene; `triangles` are all of it, or empty if there is nothing else.
+using LightSamplerFactory = std::unique_ptr<const LightSampler> (*)(std::span<const Emitter> emitters,
+                                                                    std::span<const Triangle> triangles);
 
 /// All strategies by the name users give them.
 [[nodiscard]] std::span<const Named<LightSamplerFactory>> light_samplers();

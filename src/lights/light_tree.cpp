@@ -130,10 +130,10 @@ class LightTree::Builder {
   LightTree& tree_;
 };
 
-LightTree::LightTree(std::span<const Emitter> emitters)
+LightTree::LightTree(std::span<const Emitter> emitters, std::span<const Triangle> triangles)
     : emitters_(emitters),
       views_(emitters.begin(), emitters.end()),
-      wholes_(find_whole_lights(emitters)),
+      wholes_(find_whole_lights(emitters, triangles)),
       weigh_wholes_(all_weigh_wholes().front().function) {
   Builder(*this).build();
 }

@@ -22,7 +22,8 @@ namespace lemma {
 /// quad lies the tree of its own emitters.
 class LightTree {
  public:
-  explicit LightTree(std::span<const Emitter> emitters);
+  /// @param triangles  as of find_whole_lights()
+  LightTree(std::span<const Emitter> emitters, std::span<const Triangle> triangles);
 
   /// A light chosen: one of the three.
   struct Choice {

@@ -37,7 +37,8 @@ class CosineView {
 
 }  // namespace
 
-std::unique_ptr<const LightSampler> make_projected(std::span<const Emitter> emitters) {
+std::unique_ptr<const LightSampler> make_projected(std::span<const Emitter> emitters,
+                                                   std::span<const Triangle>) {
   return std::make_unique<WeightedEmitters<CosineView>>(emitters);
 }
 

@@ -27,7 +27,8 @@ class UniformView {
 
 }  // namespace
 
-std::unique_ptr<const LightSampler> make_solid_angle(std::span<const Emitter> emitters) {
+std::unique_ptr<const LightSampler> make_solid_angle(std::span<const Emitter> emitters,
+                                                     std::span<const Triangle>) {
   return std::make_unique<WeightedEmitters<UniformView>>(emitters);
 }
 

@@ -1,6 +1,7 @@
 #include "src/core/warp.h"
 #include "src/lights/light_tree.h"
 #include "src/lights/triangle_sampling.h"
+#include "src/lights/whole_core.h"
 #include "src/lights/whole_view.h"
 
 namespace lemma {
@@ -14,13 +15,17 @@ WholeView view_of(const WholeLight& light, const LightQuery& at) {
   return {cone, LobeSector::find(at.reflection, cone).value_or(LobeSector())};
 }
 
+WholeCore core_of(const WholeLight& light) {
+  return {light.centre, light.radius, light.core};
+}
+
 /// A light by a tree (light_tree.h), by what the surface reflects of it, at a cost that grows with the
 /// logarithm of their number; then a direction uniform over its solid angle, or that of a WholeView if it is
 /// a whole light.
 class TreeSampler final : public LightSampler, private LightWaveSampler {
  public:
-  explicit TreeSampler(std::span<const Emitter> emitters)
-      : emitters_(emitters), tree_(emitters), row_(tree_.row()), row_waves_(light_row_waves()) {}
+  TreeSampler(std::span<const Emitter> emitters, std::span<const Triangle> triangles)
+      : emitters_(emitters), tree_(emitters, triangles), row_(tree_.row()), row_waves_(light_row_waves()) {}
 
   std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const override {
     return sample(at, random.next_choice_pair());
@@ -88,6 +93,7 @@ class TreeSampler final : public LightSampler, private LightWaveSampler {
                        .pdf = pdf,
                        .radiance = emitters_[light.whole->emitters.front()].radiance,
                        .to_light = wi,
+                       .visible_until = core_of(*light.whole).visible_until(at.x, wi),
                        .whole = light.whole};
   }
 
@@ -129,8 +135,9 @@ class TreeSampler final : public LightSampler, private LightWaveSampler {
 
 }  // namespace
 
-std::unique_ptr<const LightSampler> make_tree(std::span<const Emitter> emitters) {
-  return std::make_unique<TreeSampler>(emitters);
+std::unique_ptr<const LightSampler> make_tree(std::span<const Emitter> emitters,
+                                              std::span<const Triangle> triangles) {
+  return std::make_unique<TreeSampler>(emitters, triangles);
 }
 
 }  // namespace lemma

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "src/core/bounds.h"
+#include "src/lights/whole_core.h"
 
 namespace lemma {
 namespace {
@@ -80,13 +81,15 @@ std::optional<WholeLight> as_whole(std::span<const Emitter> emitters, std::vecto
   if (!is_closed(emitters, part)) return std::nullopt;
   Bounds box;
   for (const std::uint32_t e : part) box.add(emitters[e].shape);
-  WholeLight light{(Vec3d(box.lo) + Vec3d(box.hi)) * 0.5, 0, {}};
-  double volume = 0;
+  WholeLight light;
+  light.centre = (Vec3d(box.lo) + Vec3d(box.hi)) * 0.5;
+  double volume = 0, inscribed = std::numeric_limits<double>::infinity();
   for (const std::uint32_t e : part) {
     const Triangle& t = emitters[e].shape;
     const double pyramid = dot(Vec3d(t.v0) - light.centre, area_vector(t)) / 6;
     if (!(pyramid > 0)) return std::nullopt;  // faces the centre
     volume += pyramid;
+    inscribed = std::min(inscribed, 6 * pyramid / length(area_vector(t)));
     for (const Vec3& v : {t.v0, t.v1, t.v2}) {
       light.radius = std::max(light.radius, length(Vec3d(v) - light.centre));
     }
@@ -94,17 +97,47 @@ std::optional<WholeLight> as_whole(std::span<const Emitter> emitters, std::vecto
   const double sphere = 4 * std::numbers::pi / 3 * light.radius * light.radius * light.radius;
   if (smallest_fill(std::min(volume / sphere, 1.0)) < kSmallestFill) return std::nullopt;
   light.radius *= kRim;
+  light.core = inscribed * WholeCore::kInside;
   light.emitters = std::move(part);
   return light;
 }
 
+/// Whether the box of a triangle, or its plane, shows that no point of it lies in the ball.
+bool is_outside(const Triangle& t, const Vec3d& centre, double radius) {
+  Bounds box;
+  box.add(t);
+  Vec3d apart;
+  for (int k = 0; k < 3; ++k) apart[k] = std::max({box.lo[k] - centre[k], centre[k] - box.hi[k], 0.0});
+  if (dot(apart, apart) > radius * radius) return true;
+  const Vec3d normal = area_vector(t);
+  return std::abs(dot(Vec3d(t.v0) - centre, normal)) > radius * length(normal);
+}
+
+/// Leaves the core to those lights alone that have nothing else near.
+void check_cores(std::span<const Emitter> emitters, std::span<const Triangle> triangles,
+                 std::vector<WholeLight>& lights) {
+  std::vector<bool> own(triangles.size());
+  for (WholeLight& light : lights) {
+    own.assign(triangles.size(), false);
+    for (const std::uint32_t e : light.emitters) {
+      if (!triangles.empty()) own[emitters[e].triangle] = true;
+    }
+    for (std::size_t i = 0; i < triangles.size() && light.core > 0; ++i) {
+      if (!own[i] && !is_outside(triangles[i], light.centre, WholeCore::kClear * light.radius))
+        light.core = 0;
+    }
+  }
+}
+
 }  // namespace
 
-std::vector<WholeLight> find_whole_lights(std::span<const Emitter> emitters) {
+std::vector<WholeLight> find_whole_lights(std::span<const Emitter> emitters,
+                                          std::span<const Triangle> triangles) {
   std::vector<WholeLight> lights;
   for (auto& part : connected_parts(emitters)) {
     if (auto light = as_whole(emitters, std::move(part))) lights.push_back(std::move(*light));
   }
+  check_cores(emitters, triangles, lights);
   return lights;
 }
 

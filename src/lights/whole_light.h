@@ -14,12 +14,16 @@ struct WholeLight {
   Vec3d centre;
   double radius = 0;  // of a sphere about the centre that holds all vertices
   std::vector<std::uint32_t> emitters;
+  double core = 0;  // radius of a ball about the centre, of whose rays much is known (WholeCore); 0: none
 };
 
 /// Finds those sets of emitters of one light, joined by common vertices, that are
 ///   closed:      each edge belongs to two triangles, once in each direction;
 ///   star-shaped: all face away from the centre of their bounding box, so that no two overlap;
 ///   round:       from any direction the silhouette fills at least half of the bounding sphere's.
-[[nodiscard]] std::vector<WholeLight> find_whole_lights(std::span<const Emitter> emitters);
+/// @param triangles  of the scene, in which Emitter::triangle names the emitters; empty: there is nothing
+/// else
+[[nodiscard]] std::vector<WholeLight> find_whole_lights(std::span<const Emitter> emitters,
+                                                        std::span<const Triangle> triangles);
 
 }  // namespace lemma

@@ -183,7 +183,7 @@ Outcome extremes_of_u(std::string_view) {
     }
   }
   const auto emitters = two_spheres();
-  const LightTree tree(emitters);
+  const LightTree tree(emitters, {});
   for (const auto measure :
        {EmitterWeights::Measure::solid_angle, EmitterWeights::Measure::projected_solid_angle}) {
     const EmitterWeights weights(emitters, measure);

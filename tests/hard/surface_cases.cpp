@@ -75,7 +75,7 @@ Outcome blocked_samples(std::string_view backend, const std::vector<Triangle>& t
   const auto accel = make_backend(backend, triangles);
   Outcome outcome;
   for (const auto& strategy : light_samplers()) {
-    const auto lights = strategy.value(emitters);
+    const auto lights = strategy.value(emitters, {});
     for (std::uint32_t i = 0; i < 20000; ++i) {
       Sampler random(83, i, 0);
       const SurfacePoint p = random_surface_point(receiver, random);

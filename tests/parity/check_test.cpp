@@ -47,8 +47,8 @@ class Parity : public testing::Test {
   std::unique_ptr<const Accelerator> grid_ =
       find_named(accelerators(), std::string_view("grid")).value()(scene_.triangles, {});
   Camera camera_{scene_.view};
-  std::unique_ptr<const LightSampler> lights_ =
-      find_named(light_samplers(), std::string_view("solid-angle")).value()(scene_.emitters);
+  std::unique_ptr<const LightSampler> lights_ = find_named(light_samplers(), std::string_view("solid-angle"))
+                                                    .value()(scene_.emitters, scene_.triangles);
   Oracle oracle_{scene_.triangles};
   RaySource source_{{scene_.triangles, grid_.get(), &camera_, lights_.get()}, 7};
 };

@@ -64,7 +64,7 @@ std::unique_ptr<const Accelerator> make(std::string_view name, const Scene& scen
 /// the oracle must call every such ray ambiguous.
 void expect_differences_explained(const Scene& scene, std::string_view name) {
   const auto grid = make("grid", scene), embree = make("embree", scene);
-  const auto lights = light_samplers().front().value(scene.emitters);
+  const auto lights = light_samplers().front().value(scene.emitters, scene.triangles);
   const auto integrator = integrators().front().value(scene.needs.model, {});
   const Oracle oracle(scene.triangles);
   const Camera camera(scene.view);

@@ -72,7 +72,7 @@ TEST(Variance, EstimatesAreHonest) {
 TEST(Variance, StoppingAtAnErrorHardlyBiasesTheImage) {
   const Scene scene = quiet_scene();
   const auto accel = find_named(accelerators(), "embree").value()(scene.triangles, {});
-  const auto lights = light_samplers().front().value(scene.emitters);
+  const auto lights = light_samplers().front().value(scene.emitters, scene.triangles);
   const auto integrator = integrators().front().value(scene.needs.model, {});
   std::vector<double> stopped, whole;
   const StopRule rule{.spp = 4096, .relmse = 0.005};

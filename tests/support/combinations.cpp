@@ -135,7 +135,8 @@ CombinationRenderer::CombinationRenderer(const Scene& scene) {
     scenes_.push_back(scene);
     for (Material& m : scenes_.back().materials) m.sampling = sampling.value;
   }
-  for (const auto& strategy : light_samplers()) lights_.push_back(strategy.value(scenes_[0].emitters));
+  for (const auto& strategy : light_samplers())
+    lights_.push_back(strategy.value(scenes_[0].emitters, scene.triangles));
   for (const std::string_view name : options()[kAccelerator].choices) {
     accelerators_.push_back(find_named(accelerators(), name).value()(scenes_[0].triangles, {}));
   }

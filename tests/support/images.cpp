@@ -14,7 +14,7 @@ Scene own_scene(std::string_view name, int width, int height) {
 
 RenderResult render_scene(const Scene& scene, const Configuration& c, const RenderSettings& settings) {
   const auto accel = find_named(accelerators(), c.accel).value()(scene.triangles, {});
-  const auto lights = find_named(light_samplers(), c.lights).value()(scene.emitters);
+  const auto lights = find_named(light_samplers(), c.lights).value()(scene.emitters, scene.triangles);
   const auto integrator = find_named(integrators(), c.integrator).value()(scene.needs.model, c.options);
   return render({scene, *accel, *lights}, *integrator, settings, nullptr);
 }

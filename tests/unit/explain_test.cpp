@@ -29,9 +29,10 @@ struct Rendering {
   Rendering(Scene s, const std::string& integrator_name, const IntegratorOptions& options)
       : scene(std::move(s)),
         accel(find_named(accelerators(), "embree").value()(scene.triangles, {})),
-        lights(light_samplers().front().value(scene.emitters)),
+        lights(light_samplers().front().value(scene.emitters, scene.triangles)),
         integrator(find_named(integrators(), integrator_name).value()(scene.needs.model, options)) {
-    for (const auto& entry : light_samplers()) strategies.push_back(entry.value(scene.emitters));
+    for (const auto& entry : light_samplers())
+      strategies.push_back(entry.value(scene.emitters, scene.triangles));
   }
   [[nodiscard]] World world() const { return {scene, *accel, *lights}; }
 

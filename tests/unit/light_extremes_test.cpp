@@ -20,7 +20,7 @@ namespace {
 class LightExtremes : public testing::TestWithParam<std::string_view> {
  protected:
   [[nodiscard]] static std::unique_ptr<const LightSampler> make(const std::vector<Emitter>& emitters) {
-    return find_named(light_samplers(), GetParam()).value()(emitters);
+    return find_named(light_samplers(), GetParam()).value()(emitters, {});
   }
 };
 

@@ -85,7 +85,7 @@ bool by_area(std::string_view strategy) {
 class LightLadder : public testing::TestWithParam<std::string_view> {
  protected:
   [[nodiscard]] static std::unique_ptr<const LightSampler> make(const std::vector<Emitter>& emitters) {
-    return find_named(light_samplers(), GetParam()).value()(emitters);
+    return find_named(light_samplers(), GetParam()).value()(emitters, {});
   }
   static bool suits(const Situation& s) { return s.area_converges || !by_area(GetParam()); }
 };
@@ -288,7 +288,7 @@ TEST_P(LightLadder, EstimatesTheIrradianceOfASphere) {
 TEST(Projected, IrradianceOfOneTriangleHasNoVariance) {
   for (const Situation& s : situations()) {
     if (s.emitters.size() > 1) continue;
-    const auto lights = find_named(light_samplers(), std::string_view("projected")).value()(s.emitters);
+    const auto lights = find_named(light_samplers(), std::string_view("projected")).value()(s.emitters, {});
     const LightQuery at = lights->query(s.x, s.n);
     const double expected = test::exact_projected_solid_angle(test::corners(s.emitters[0].shape), s.x, s.n);
     if (expected < 1e-9) continue;  // sampled by area

@@ -19,7 +19,7 @@ using Trees = std::vector<std::unique_ptr<const LightSampler>>;
 /// One for each instruction set that this machine has.
 Trees trees_over(std::span<const Emitter> emitters) {
   const auto make = find_named(light_samplers(), std::string_view("tree")).value();
-  return for_every_instruction_set([&] { return make(emitters); });
+  return for_every_instruction_set([&] { return make(emitters, {}); });
 }
 
 struct Lights {
@@ -201,8 +201,8 @@ TEST(LightRowWave, IsNoneOverTreesOfManyLightsOrEmitters) {
   for (int k = 0; k < 17; ++k) add(many, sphere({static_cast<float>(k), 0, 0}, 0.1f), 1);
   std::vector<Emitter> with_triangle = test::two_spheres();
   add(with_triangle, {{{0, 9, 0}, {1, 9, 0}, {0, 9, 1}}}, 1);
-  for (const auto& emitters : {many, with_triangle}) EXPECT_FALSE(LightTree(emitters).row());
-  EXPECT_TRUE(LightTree(test::two_spheres()).row());
+  for (const auto& emitters : {many, with_triangle}) EXPECT_FALSE(LightTree(emitters, {}).row());
+  EXPECT_TRUE(LightTree(test::two_spheres(), {}).row());
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace {
 using test::emitters_of;
 
 std::unique_ptr<const LightSampler> make_tree(std::span<const Emitter> emitters) {
-  return find_named(light_samplers(), std::string_view("tree")).value()(emitters);
+  return find_named(light_samplers(), std::string_view("tree")).value()(emitters, {});
 }
 
 /// Whether a point of the triangle emits towards x and lies above the horizon of n.
@@ -39,11 +39,11 @@ std::vector<Emitter> random_emitters(std::size_t count, float size) {
 
 TEST(WholeLight, IsARoundClosedBody) {
   const auto sphere = test::sphere_mesh({1, 2, 3}, 0.5f, 12, 16);
-  const auto lights = find_whole_lights(emitters_of(sphere, 1, 0));
+  const auto lights = find_whole_lights(emitters_of(sphere, 1, 0), {});
   ASSERT_EQ(lights.size(), 1u);
   EXPECT_EQ(lights[0].emitters.size(), sphere.size());
   EXPECT_NEAR(lights[0].radius, 0.5, 2e-6);
-  EXPECT_EQ(find_whole_lights(test::two_spheres()).size(), 2u);
+  EXPECT_EQ(find_whole_lights(test::two_spheres(), {}).size(), 2u);
 }
 
 TEST(WholeLight, IsNothingOpenFlatInwardDoubledOrOfTwoLights) {
@@ -54,11 +54,11 @@ TEST(WholeLight, IsNothingOpenFlatInwardDoubledOrOfTwoLights) {
   doubled.insert(doubled.end(), sphere.begin(), sphere.end());
   for (Triangle& t : flat) t.v0.y *= 0.5f, t.v1.y *= 0.5f, t.v2.y *= 0.5f;
   for (const auto& mesh : {open, inward, doubled, flat}) {
-    EXPECT_TRUE(find_whole_lights(emitters_of(mesh, 1, 0)).empty());
+    EXPECT_TRUE(find_whole_lights(emitters_of(mesh, 1, 0), {}).empty());
   }
   auto two_lights = emitters_of(sphere, 1, 0);
   two_lights.front().light = 1;
-  EXPECT_TRUE(find_whole_lights(two_lights).empty());
+  EXPECT_TRUE(find_whole_lights(two_lights, {}).empty());
 }
 
 /// The Jacobian of the map, by central differences, is the solid angle.

@@ -21,7 +21,7 @@ const Vec3 kUp(0, 1, 0);
 class EveryStrategy : public testing::TestWithParam<std::string_view> {
  protected:
   [[nodiscard]] std::unique_ptr<const LightSampler> make(const std::vector<Emitter>& emitters) const {
-    return find_named(light_samplers(), GetParam()).value()(emitters);
+    return find_named(light_samplers(), GetParam()).value()(emitters, {});
   }
 };
 
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Lights, EveryStrategy,
 
 TEST(RadianceArea, ChoosesLightsByRadianceAlone) {
   const auto emitters = two_spheres();
-  const auto lights = find_named(light_samplers(), std::string_view("radiance-area")).value()(emitters);
+  const auto lights = find_named(light_samplers(), std::string_view("radiance-area")).value()(emitters, {});
   const LightQuery at = lights->query({0, 100, 0}, -kUp);  // sees about the same half of both
   std::map<float, int> chosen;
   for (std::uint32_t i = 0; i < 20000; ++i) {

@@ -77,7 +77,7 @@ void expect_waves_of_single_paths(const Scene& scene, const IntegratorOptions& o
     const auto integrator = find_named(integrators(), name).value()(scene.needs.model, options);
     for (const auto& strategy : light_samplers()) {
       SCOPED_TRACE(std::string(name) + " " + std::string(strategy.name));
-      const auto lights = strategy.value(scene.emitters);
+      const auto lights = strategy.value(scene.emitters, scene.triangles);
       const World world{scene, *accel, *lights};
       const Followed waves = paths.in_waves(*integrator, world),
                      single = paths.one_by_one(*integrator, world);

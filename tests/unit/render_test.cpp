@@ -25,7 +25,8 @@ TEST(Render, InvalidSamplesAreCountedLocatedAndLeftOut) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const Scene scene = test::own_scene("cornell-box", 40, 30);
   const auto accel = find_named(accelerators(), std::string_view("brute")).value()(scene.triangles, {});
-  const auto lights = find_named(light_samplers(), std::string_view("power")).value()(scene.emitters);
+  const auto lights =
+      find_named(light_samplers(), std::string_view("power")).value()(scene.emitters, scene.triangles);
   for (const Rgb bad : {Rgb{nan, 0, 0}, Rgb{0, inf, 0}, Rgb{0, 0, -1}}) {
     const RenderResult result = render({scene, *accel, *lights}, Faulty(bad), {.spp = 8, .seed = 3}, nullptr);
     // Binomial: 9600 draws of 0.01, mean 96, five standard deviations of 10.
