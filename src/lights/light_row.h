@@ -39,7 +39,7 @@ struct LightRowScratch {
   Wave<double> pmf, u;                     // of the light; what the choice leaves of its number
   // Of the light chosen: of a whole one ...
   Wave<std::uint32_t> is_whole;
-  Wave<double> centre_x, centre_y, centre_z, radius, core;
+  Wave<double> centre_x, centre_y, centre_z, radius, core, shell;
   // ... and of a quad.
   Wave<std::uint32_t> half;
   VecWave half_v0, half_v1, half_v2;

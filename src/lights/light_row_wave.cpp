@@ -109,7 +109,8 @@ void choose_single(std::size_t end, const Wave<double>& u, Scratch& s) {
 void fetch_whole(const LightRow::Light& light, std::size_t i, Scratch& s) {
   const Vec3d& centre = light.whole->centre;
   s.centre_x[i] = centre.x, s.centre_y[i] = centre.y, s.centre_z[i] = centre.z;
-  s.radius[i] = light.whole->radius, s.core[i] = light.whole->core;
+  s.radius[i] = light.whole->radius;
+  s.core[i] = light.whole->core, s.shell[i] = light.whole->shell;
 }
 
 void fetch_emitter(const Triangle& t, std::size_t i, Scratch& s) {
@@ -145,12 +146,28 @@ void fetch_lights(const LightRow& row, std::size_t count, const ChoicePairWave& 
   }
 }
 
-void sample_wholes(const LightQueryWave& at, std::size_t end, const Wave<float>& v, Scratch& s,
-                   LightSampleWave& samples) {
+/// Whether a lane of the step from `begin` on reflects lights by a lobe; else LobeSector() has the bits of
+/// all, which does not serve.
+bool has_lobes(const LightQueryWave& at, std::size_t begin) {
+  std::uint32_t lobes = 0;
+  for (std::size_t i = begin; i < begin + kWaveStep; ++i) lobes |= at.peak[i] != 0 ? 1u : 0u;
+  return lobes != 0;
+}
+
+template <bool kLobes>
+[[gnu::always_inline]] inline WholeView view_of(const LightQueryWave& at, const SphereCone& cone,
+                                                std::size_t i) {
+  if constexpr (kLobes) return {cone, LobeSector(reflection_of(at, i), cone)};
+  return {cone, LobeSector()};
+}
+
+template <bool kLobes>
+void sample_wholes_step(const LightQueryWave& at, std::size_t begin, const Wave<float>& v, Scratch& s,
+                        LightSampleWave& samples) {
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < end; ++i) {
+  for (std::size_t i = begin; i < begin + kWaveStep; ++i) {
     const SphereCone cone(centre_of(s, i), s.radius[i], at.x[i]);
-    const WholeView seen(cone, LobeSector(reflection_of(at, i), cone));
+    const WholeView seen = view_of<kLobes>(at, cone, i);
     const auto [within, w] = seen.sample(s.u[i], v[i]);
     const float pdf = seen.pdf(s.pmf[i], w).value;
     const Vec3 wi(w);
@@ -158,8 +175,25 @@ void sample_wholes(const LightQueryWave& at, std::size_t end, const Wave<float>&
     samples.pdf[i] = within & (pdf > 0) ? pdf : 0;
     samples.wi.x[i] = wi.x, samples.wi.y[i] = wi.y, samples.wi.z[i] = wi.z;
     samples.to_light.x[i] = wi.x, samples.to_light.y[i] = wi.y, samples.to_light.z[i] = wi.z;
-    samples.visible_until[i] = WholeCore{centre_of(s, i), s.radius[i], s.core[i]}.visible_until(at.x[i], wi);
   }
+}
+
+void find_visible_until(const LightQueryWave& at, std::size_t end, const Scratch& s,
+                        LightSampleWave& samples) {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < end; ++i) {
+    samples.visible_until[i] =
+        WholeCore{centre_of(s, i), s.core[i], s.shell[i]}.visible_until(at.x[i], samples.wi[i]);
+  }
+}
+
+void sample_wholes(const LightQueryWave& at, std::size_t end, const Wave<float>& v, Scratch& s,
+                   LightSampleWave& samples) {
+  for (std::size_t begin = 0; begin < end; begin += kWaveStep) {
+    const auto sample_step = has_lobes(at, begin) ? sample_wholes_step<true> : sample_wholes_step<false>;
+    sample_step(at, begin, v, s, samples);
+  }
+  find_visible_until(at, end, s, samples);
 }
 
 /// Of the lanes that have chosen a quad.
@@ -244,16 +278,25 @@ void fetch_emitters(const LightRow& row, std::size_t count, const Wave<std::uint
   return possible_connection(triangle_of(s.v0, s.v1, s.v2, i), at.x[i], Vec3d(y[i]));
 }
 
-void find_pdf_of_wholes(const LightQueryWave& at, std::size_t end, const VecWave& y, Scratch& s,
-                        Wave<float>& pdf) {
+template <bool kLobes>
+void find_pdf_of_wholes_step(const LightQueryWave& at, std::size_t begin, const VecWave& y, Scratch& s,
+                             Wave<float>& pdf) {
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < end; ++i) {
+  for (std::size_t i = begin; i < begin + kWaveStep; ++i) {
     const auto [exists, connection] = connection_of(at, s, y, i);
     const SphereCone cone(centre_of(s, i), s.radius[i], at.x[i]);
-    const WholeView seen(cone, LobeSector(reflection_of(at, i), cone));
-    const float value = seen.pdf(s.pmf[i], connection.to_light).value;
+    const float value = view_of<kLobes>(at, cone, i).pdf(s.pmf[i], connection.to_light).value;
     s.undone[i] |= (s.is_whole[i] != 0) & !cone.can_be_sampled() ? 1u : 0u;
     pdf[i] = exists ? value : 0;
+  }
+}
+
+void find_pdf_of_wholes(const LightQueryWave& at, std::size_t end, const VecWave& y, Scratch& s,
+                        Wave<float>& pdf) {
+  for (std::size_t begin = 0; begin < end; begin += kWaveStep) {
+    const auto find_step =
+        has_lobes(at, begin) ? find_pdf_of_wholes_step<true> : find_pdf_of_wholes_step<false>;
+    find_step(at, begin, y, s, pdf);
   }
 }
 

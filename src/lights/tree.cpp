@@ -16,7 +16,7 @@ WholeView view_of(const WholeLight& light, const LightQuery& at) {
 }
 
 WholeCore core_of(const WholeLight& light) {
-  return {light.centre, light.radius, light.core};
+  return {light.centre, light.core, light.shell};
 }
 
 /// A light by a tree (light_tree.h), by what the surface reflects of it, at a cost that grows with the

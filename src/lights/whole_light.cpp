@@ -102,30 +102,39 @@ std::optional<WholeLight> as_whole(std::span<const Emitter> emitters, std::vecto
   return light;
 }
 
-/// Whether the box of a triangle, or its plane, shows that no point of it lies in the ball.
-bool is_outside(const Triangle& t, const Vec3d& centre, double radius) {
+/// How far a triangle is from a point at least: as far as its box, or its plane.
+double least_distance(const Triangle& t, const Vec3d& from) {
   Bounds box;
   box.add(t);
   Vec3d apart;
-  for (int k = 0; k < 3; ++k) apart[k] = std::max({box.lo[k] - centre[k], centre[k] - box.hi[k], 0.0});
-  if (dot(apart, apart) > radius * radius) return true;
+  for (int k = 0; k < 3; ++k) apart[k] = std::max({box.lo[k] - from[k], from[k] - box.hi[k], 0.0});
   const Vec3d normal = area_vector(t);
-  return std::abs(dot(Vec3d(t.v0) - centre, normal)) > radius * length(normal);
+  const double twice_area = length(normal);
+  const double from_plane = twice_area > 0 ? std::abs(dot(Vec3d(t.v0) - from, normal)) / twice_area : 0;
+  return std::max(length(apart), from_plane);
 }
 
-/// Leaves the core to those lights alone that have nothing else near.
-void check_cores(std::span<const Emitter> emitters, std::span<const Triangle> triangles,
+/// Finds the shells; a light that has something else near loses its core, as do all where there are so many
+/// that finding them would take long.
+void find_shells(std::span<const Emitter> emitters, std::span<const Triangle> triangles,
                  std::vector<WholeLight>& lights) {
-  std::vector<bool> own(triangles.size());
+  constexpr std::size_t most_pairs = 100'000'000;  // half a second
+  const bool are_too_many = lights.size() * triangles.size() > most_pairs;
   for (WholeLight& light : lights) {
-    own.assign(triangles.size(), false);
+    if (are_too_many) {
+      light.core = 0;
+      continue;
+    }
+    std::vector<bool> own(triangles.size());
     for (const std::uint32_t e : light.emitters) {
       if (!triangles.empty()) own[emitters[e].triangle] = true;
     }
-    for (std::size_t i = 0; i < triangles.size() && light.core > 0; ++i) {
-      if (!own[i] && !is_outside(triangles[i], light.centre, WholeCore::kClear * light.radius))
-        light.core = 0;
+    double clear = WholeCore::kFarthest * light.radius;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      if (!own[i]) clear = std::min(clear, least_distance(triangles[i], light.centre));
     }
+    light.shell = clear / WholeCore::kClear;
+    if (light.shell < WholeCore::kSmallestShell * light.radius) light.core = light.shell = 0;
   }
 }
 
@@ -137,7 +146,7 @@ std::vector<WholeLight> find_whole_lights(std::span<const Emitter> emitters,
   for (auto& part : connected_parts(emitters)) {
     if (auto light = as_whole(emitters, std::move(part))) lights.push_back(std::move(*light));
   }
-  check_cores(emitters, triangles, lights);
+  find_shells(emitters, triangles, lights);
   return lights;
 }
 

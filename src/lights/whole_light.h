@@ -14,7 +14,9 @@ struct WholeLight {
   Vec3d centre;
   double radius = 0;  // of a sphere about the centre that holds all vertices
   std::vector<std::uint32_t> emitters;
-  double core = 0;  // radius of a ball about the centre, of whose rays much is known (WholeCore); 0: none
+  // Radii of two balls about the centre of whose rays much is known (WholeCore): one in the body, and one in
+  // which nothing else lies; 0 if there are none.
+  double core = 0, shell = 0;
 };
 
 /// Finds those sets of emitters of one light, joined by common vertices, that are

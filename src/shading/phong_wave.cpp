@@ -15,12 +15,34 @@ namespace lemma {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Plain loops without branches, that compilers turn into vector code of the instruction set.
+// Plain loops over the lanes of a step without branches, that compilers turn into vector code of the
+// instruction set.
+
+/// Whether the lanes of a step from `begin` on reflect diffusely alone, for which LambertFormulas has the
+/// bits of all others: in most scenes most steps do.
+bool is_lambert(const MaterialWave& materials, std::size_t begin) {
+  std::uint32_t lobes = 0;
+  for (std::size_t i = begin; i < begin + kWaveStep; ++i)
+    lobes |= !is_black(materials.ks[i]) | (materials.diffuse_probability[i] != 1) ? 1u : 0u;
+  return lobes == 0;
+}
+
+/// Calls use(formulas, begin) for all steps with those that they need.
+template <class Formulas, class Use>
+void for_steps(const MaterialWave& materials, std::size_t count, const Use& use) {
+  for (std::size_t begin = 0; begin < count; begin += kWaveStep) {
+    if (is_lambert(materials, begin)) {
+      use(LambertFormulas(), begin);
+    } else {
+      use(Formulas(), begin);
+    }
+  }
+}
 
 template <class Formulas>
-void at(const MaterialWave& materials, const VecWave& wo, const VecWave& wi, std::size_t count,
-        BrdfValueWave& values) {
-  for (std::size_t i = 0; i < wave_end(count); ++i) {
+void at_step(const MaterialWave& materials, const VecWave& wo, const VecWave& wi, std::size_t begin,
+             BrdfValueWave& values) {
+  for (std::size_t i = begin; i < begin + kWaveStep; ++i) {
     const BrdfValue value = Formulas::at(materials[i], wo[i], wi[i]);
     values.f.set(i, value.f);
     values.pdf[i] = value.pdf.value;
@@ -28,26 +50,44 @@ void at(const MaterialWave& materials, const VecWave& wo, const VecWave& wi, std
 }
 
 template <class Formulas>
-void sample(const MaterialWave& materials, const VecWave& wo, const ChoicePairWave& u, std::size_t count,
-            BrdfSampleWave& samples) {
+void at(const MaterialWave& materials, const VecWave& wo, const VecWave& wi, std::size_t count,
+        BrdfValueWave& values) {
+  for_steps<Formulas>(materials, count, [&]<class Needed>(Needed, std::size_t begin) {
+    at_step<Needed>(materials, wo, wi, begin, values);
+  });
+}
+
+template <class Formulas>
+void sample_step(const MaterialWave& materials, const VecWave& wo, const ChoicePairWave& u, std::size_t begin,
+                 BrdfSampleWave& samples) {
   // Apart: together, GCC joins what follows from the choice in both, to a flow that vector code cannot have.
-  Wave<std::uint32_t> diffuse;
-  Wave<float> x;
-  for (std::size_t i = 0; i < wave_end(count); ++i) {
+  alignas(64) std::uint32_t diffuse[kWaveStep];
+  alignas(64) float x[kWaveStep];
+  for (std::size_t k = 0; k < kWaveStep; ++k) {
+    const std::size_t i = begin + k;
     const double p = materials.diffuse_probability[i];
     const bool first = u.x[i] < p;
-    diffuse[i] = first ? 1 : 0;
-    x[i] = rest_of_choice(u.x[i], p, first);
+    diffuse[k] = first ? 1 : 0;
+    x[k] = rest_of_choice(u.x[i], p, first);
   }
-  for (std::size_t i = 0; i < wave_end(count); ++i) {
-    const Vec3 wi = Formulas::draw(materials[i], wo[i], diffuse[i] != 0, {x[i], u.y[i]});
+  for (std::size_t k = 0; k < kWaveStep; ++k) {
+    const std::size_t i = begin + k;
+    const Vec3 wi = Formulas::draw(materials[i], wo[i], diffuse[k] != 0, {x[k], u.y[i]});
     samples.wi.set(i, wi);
   }
-  for (std::size_t i = 0; i < wave_end(count); ++i) {
+  for (std::size_t i = begin; i < begin + kWaveStep; ++i) {
     const BrdfSample sample = Formulas::weigh(materials[i], wo[i], samples.wi[i]);
     samples.pdf[i] = sample.pdf.value;
     samples.weight.set(i, sample.weight);
   }
+}
+
+template <class Formulas>
+void sample(const MaterialWave& materials, const VecWave& wo, const ChoicePairWave& u, std::size_t count,
+            BrdfSampleWave& samples) {
+  for_steps<Formulas>(materials, count, [&]<class Needed>(Needed, std::size_t begin) {
+    sample_step<Needed>(materials, wo, u, begin, samples);
+  });
 }
 
 template <class Formulas>

@@ -87,7 +87,7 @@ TEST_P(WholeCoreTest, ARayThroughItSeesTheLightUnlessBlockedBeforeTheShell) {
     for (int i = 0; i < 20000; ++i) {
       const Vec3 x = random_viewpoint(light, random);
       const Vec3 w = direction_near(light.centre, light.radius, x, random);
-      const float until = WholeCore{light.centre, light.radius, light.core}.visible_until(x, w);
+      const float until = WholeCore{light.centre, light.core, light.shell}.visible_until(x, w);
       if (until == kInfinity) continue;
       const auto hit = accel->closest_hit({x, w});
       ASSERT_TRUE(hit) << name;
@@ -105,13 +105,15 @@ INSTANTIATE_TEST_SUITE_P(All, WholeCoreTest, ::testing::Values("grid", "embree",
 
 TEST(WholeCore, IsNoneWhereAnythingElseComesNear) {
   const auto body = test::sphere_mesh({1, 2, 3}, 0.5f, 12, 16);
-  const auto core_beside = [&](const Triangle& other) {
+  const auto light_beside = [&](const Triangle& other) {
     std::vector<Triangle> scene = body;
     scene.push_back(other);
-    return whole_of(body, scene).core;
+    return whole_of(body, scene);
   };
+  const auto core_beside = [&](const Triangle& other) { return light_beside(other).core; };
   const auto floor_at = [](float y) { return Triangle{{-9, y, -9}, {9, y, -9}, {0, y, 20}}; };
   EXPECT_GT(core_beside(floor_at(2 - 0.52f)), 0);
+  EXPECT_NEAR(light_beside(floor_at(0)).shell, 2 / WholeCore::kClear, 1e-6);
   EXPECT_EQ(core_beside(floor_at(2 - 0.505f)), 0);
   EXPECT_EQ(core_beside(floor_at(2)), 0);
   const float tilt = 0.52f * std::sqrt(2.0f);  // the distance of a plane x + y = const, along an axis
@@ -121,12 +123,13 @@ TEST(WholeCore, IsNoneWhereAnythingElseComesNear) {
 
 /// From farther away rounding may move a ray past the body.
 TEST(WholeCore, EndsWithDistance) {
-  const WholeCore core{{0, 0, 0}, 1.02, 1};
+  const WholeCore core{{0, 0, 0}, 1, 1.0302};
   EXPECT_NEAR(core.visible_until({0, 0, -990}, {0, 0, 1}), 990 - 1.0302, 1e-4);
   EXPECT_EQ(core.visible_until({0, 0, -1001}, {0, 0, 1}), kInfinity);
   const auto aside = [](float x) { return Vec3(Vec3d(x, 0, 10) * (1 / std::hypot(x, 10.0f))); };
   EXPECT_LT(core.visible_until({0, 0, -10}, aside(0.99f)), 10);
   EXPECT_EQ(core.visible_until({0, 0, -10}, aside(1.01f)), kInfinity);
+  EXPECT_EQ(core.visible_until({0, 0, -1.02f}, {0, 0, 1}), 0);  // within the shell, which is empty
 }
 
 }  // namespace
