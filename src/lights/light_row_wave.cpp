@@ -32,14 +32,33 @@ using Scratch = LightRowScratch;
   return {v0[i], v1[i], v2[i]};
 }
 
-void weigh_whole(const LightRow::Light& light, const LightQueryWave& at, std::size_t end,
-                 Wave<double>& weights, Wave<std::uint32_t>& undone) {
-  const WholeOutline outline = light.outline;
+/// Whether a lane of the step from `begin` on reflects by a lobe; else weights without one have the same
+/// bits.
+bool has_lobes(const LightQueryWave& at, std::size_t begin) {
+  std::uint32_t lobes = 0;
+  for (std::size_t i = begin; i < begin + kWaveStep; ++i) lobes |= at.peak[i] != 0 ? 1u : 0u;
+  return lobes != 0;
+}
+
+template <bool kLobes>
+void weigh_whole_step(const WholeOutline& light, const LightQueryWave& at, std::size_t begin,
+                      Wave<double>& weights, Wave<std::uint32_t>& undone) {
+  const WholeOutline outline = light;
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < end; ++i) {
-    const float weight = whole_weight(outline, at.x[i], at.n[i], reflection_of(at, i));
+  for (std::size_t i = begin; i < begin + kWaveStep; ++i) {
+    const Reflection reflection =
+        kLobes ? reflection_of(at, i) : Reflection{.diffuse = at.diffuse[i], .peak = 0};
+    const float weight = whole_weight(outline, at.x[i], at.n[i], reflection);
     weights[i] = weight;
     undone[i] |= weight >= 0 ? 0u : 1u;
+  }
+}
+
+void weigh_whole(const LightRow::Light& light, const LightQueryWave& at, std::size_t end,
+                 Wave<double>& weights, Wave<std::uint32_t>& undone) {
+  for (std::size_t begin = 0; begin < end; begin += kWaveStep) {
+    const auto weigh_step = has_lobes(at, begin) ? weigh_whole_step<true> : weigh_whole_step<false>;
+    weigh_step(light.outline, at, begin, weights, undone);
   }
 }
 
@@ -146,11 +165,19 @@ void fetch_lights(const LightRow& row, std::size_t count, const ChoicePairWave& 
   }
 }
 
-/// Whether a lane of the step from `begin` on reflects lights by a lobe; else LobeSector() has the bits of
-/// all, which does not serve.
-bool has_lobes(const LightQueryWave& at, std::size_t begin) {
+/// Whether the lobe of a lane of the step from `begin` on may serve to sample its light; else LobeSector()
+/// has the bits of all, which does not.
+bool may_need_lobes(const LightQueryWave& at, const Scratch& s, std::size_t begin) {
+  constexpr float more =
+      1.001f;  // cones are found in float32, but near right angles not less right than this
   std::uint32_t lobes = 0;
-  for (std::size_t i = begin; i < begin + kWaveStep; ++i) lobes |= at.peak[i] != 0 ? 1u : 0u;
+  for (std::size_t i = begin; i < begin + kWaveStep; ++i) {
+    const Vec3 to_centre(centre_of(s, i) - Vec3d(at.x[i]));
+    const auto radius = static_cast<float>(s.radius[i]);
+    const float sin2 = radius * radius / dot(to_centre, to_centre);
+    const float one_minus_cos = sin2 / (1 + std::sqrt(std::max(1 - sin2, 0.0f)));
+    lobes |= LobeSector::may_serve(at.peak[i], at.width[i], more * one_minus_cos) ? 1u : 0u;
+  }
   return lobes != 0;
 }
 
@@ -190,7 +217,8 @@ void find_visible_until(const LightQueryWave& at, std::size_t end, const Scratch
 void sample_wholes(const LightQueryWave& at, std::size_t end, const Wave<float>& v, Scratch& s,
                    LightSampleWave& samples) {
   for (std::size_t begin = 0; begin < end; begin += kWaveStep) {
-    const auto sample_step = has_lobes(at, begin) ? sample_wholes_step<true> : sample_wholes_step<false>;
+    const auto sample_step =
+        may_need_lobes(at, s, begin) ? sample_wholes_step<true> : sample_wholes_step<false>;
     sample_step(at, begin, v, s, samples);
   }
   find_visible_until(at, end, s, samples);
@@ -295,7 +323,7 @@ void find_pdf_of_wholes(const LightQueryWave& at, std::size_t end, const VecWave
                         Wave<float>& pdf) {
   for (std::size_t begin = 0; begin < end; begin += kWaveStep) {
     const auto find_step =
-        has_lobes(at, begin) ? find_pdf_of_wholes_step<true> : find_pdf_of_wholes_step<false>;
+        may_need_lobes(at, s, begin) ? find_pdf_of_wholes_step<true> : find_pdf_of_wholes_step<false>;
     find_step(at, begin, y, s, pdf);
   }
 }

@@ -28,6 +28,14 @@ class LobeSector {
     return sector.serves() ? std::optional(sector) : std::nullopt;
   }
 
+  /// Not over a cone so much narrower than the lobe that directions uniform over it serve.
+  /// @param peak, width    of the Reflection
+  /// @param one_minus_cos  of the cone's half angle
+  [[gnu::always_inline, nodiscard]] static bool may_serve(float peak, float width, float one_minus_cos) {
+    constexpr float narrowest = 0.5f;
+    return (peak != 0) & !(one_minus_cos < narrowest * width);
+  }
+
   /// One that does not serve.
   LobeSector() = default;
 
@@ -93,12 +101,9 @@ class LobeSector {
   }
 
  private:
-  /// Not over a cone so much narrower than the lobe that directions uniform over it serve.
   [[gnu::always_inline, nodiscard]] static bool may_serve(const Reflection& reflection,
                                                           const SphereCone& cone) {
-    constexpr float narrowest = 0.5f;
-    const auto cone_size = static_cast<float>(cone.one_minus_cos());
-    return (reflection.peak != 0) & !(cone_size < narrowest * reflection.width);
+    return may_serve(reflection.peak, reflection.width, static_cast<float>(cone.one_minus_cos()));
   }
 
   Vec3d mirror_{0, 0, 1}, axis_{0, 0, 1};
