@@ -2,15 +2,7 @@
 
 namespace lemma {
 
-void Accelerator::closest_hits(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
-  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest_hit(rays[i]);
-}
-
-void Accelerator::occluded_rays(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-  for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]) ? 1 : 0;
-}
-
-void Accelerator::closest_hits(const RayWave& rays, std::size_t count, HitWave& hits) const {
+void Accelerator::closest_hits(const RayWave& rays, std::size_t count, Coherence, HitWave& hits) const {
   for (std::size_t i = 0; i < count; ++i) {
     const std::optional<Hit> hit = closest_hit(rays[i]);
     hits.triangle[i] = HitWave::kNoTriangle;

@@ -14,6 +14,12 @@
 
 namespace lemma {
 
+/// How the rays of a wave lie, by which a backend may choose how to trace them.
+enum class Coherence {
+  none,
+  steps  // those of each kWaveStep lanes start at one point, in neighbouring directions
+};
+
 /// Finds which triangle a ray hits. Ready once it exists; all queries are const and thread-safe and keep no
 /// state. A hit counts if its t lies in the open interval (t_min, t_max). A backend decides only *which*
 /// triangle: t and the barycentric coordinates are those of intersect() in accel/watertight.h, the same for
@@ -31,17 +37,9 @@ class Accelerator {
   /// Whether there is any hit at all.
   [[nodiscard]] virtual bool occluded(const Ray& ray) const = 0;
 
-  /// closest_hit for coherent rays (one origin, neighbouring directions), which a backend may trace together.
-  /// @param hits  as many as rays
-  virtual void closest_hits(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
-
-  /// occluded for coherent rays.
-  /// @param blocked  as many as rays; 1 where there is a hit, else 0
-  virtual void occluded_rays(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
-
-  /// closest_hit for the first `count` lanes, whose rays need not be alike. Lanes from the count up to
-  /// wave_end(count) may become any numbers, and their triangles kNoTriangle.
-  virtual void closest_hits(const RayWave& rays, std::size_t count, HitWave& hits) const;
+  /// closest_hit for the first `count` lanes. Lanes from the count up to wave_end(count) may become any
+  /// numbers, and their triangles kNoTriangle.
+  virtual void closest_hits(const RayWave& rays, std::size_t count, Coherence coherence, HitWave& hits) const;
 
   /// occluded for the first `count` lanes: 1 where there is a hit, else 0; lanes up to wave_end(count) may
   /// become 0.

@@ -66,25 +66,10 @@ bool is_finite(const Ray& ray) {
 }
 
 constexpr std::size_t kPacket = 16;
-static_assert(kWaveSize % kPacket == 0);
-
-/// Puts the ray in lane i.
-void set_lane(RTCRay16& packet, std::size_t i, const RTCRay& r) {
-  packet.org_x[i] = r.org_x, packet.org_y[i] = r.org_y, packet.org_z[i] = r.org_z;
-  packet.dir_x[i] = r.dir_x, packet.dir_y[i] = r.dir_y, packet.dir_z[i] = r.dir_z;
-  packet.tnear[i] = r.tnear, packet.tfar[i] = r.tfar, packet.time[i] = 0;
-  packet.mask[i] = r.mask, packet.id[i] = 0, packet.flags[i] = 0;
-}
+static_assert(kPacket == kWaveStep);
 
 /// Up to 16 rays as Embree takes them, and which lanes hold one: -1, else 0.
 struct Packet {
-  Packet(RTCRay16& packet, std::span<const Ray> rays) {
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      valid[i] = i < rays.size() && is_finite(rays[i]) ? -1 : 0;
-      set_lane(packet, i, to_embree(valid[i] != 0 ? rays[i] : Ray{Vec3(0), Vec3(0, 0, 1)}));
-    }
-  }
-
   /// The rays of a wave's lanes from `begin` to `end`, or 16 of them. Lanes without one hold a ray all the
   /// same: where Embree has no packets of 16 for the machine, its checks look at all lanes. A loop that
   /// compilers make vector code of.
@@ -150,30 +135,14 @@ class EmbreeBvh final : public Accelerator {
     return query.tfar < 0;
   }
 
-  void closest_hits(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const override {
-    for (std::size_t begin = 0; begin < rays.size(); begin += kPacket) {
-      const auto some = rays.subspan(begin, std::min(kPacket, rays.size() - begin));
-      closest_hits_of_packet(some, hits.subspan(begin));
-    }
-  }
-
-  void occluded_rays(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
-    for (std::size_t begin = 0; begin < rays.size(); begin += kPacket) {
-      const auto some = rays.subspan(begin, std::min(kPacket, rays.size() - begin));
-      RTCRay16 query;
-      const Packet packet(query, some);
-      embree_api::occluded(packet.valid, scene_.get(), Rays::coherent, query);
-      for (std::size_t i = 0; i < some.size(); ++i)
-        blocked[begin + i] = packet.valid[i] != 0 && query.tfar[i] < 0 ? 1 : 0;
-    }
-  }
-
-  void closest_hits(const RayWave& rays, std::size_t count, HitWave& hits) const override {
+  void closest_hits(const RayWave& rays, std::size_t count, Coherence coherence,
+                    HitWave& hits) const override {
+    const Rays alike = coherence == Coherence::steps ? Rays::coherent : Rays::incoherent;
     RTCRayHit16 query;
     for (std::size_t begin = 0; begin < count; begin += kPacket) {
       const Packet packet(query.ray, rays, begin, count);
       expect_no_hit(query.hit);
-      embree_api::intersect(packet.valid, scene_.get(), Rays::incoherent, query);
+      embree_api::intersect(packet.valid, scene_.get(), alike, query);
       for (std::size_t i = 0; i < kPacket; ++i) {
         const bool is_hit = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
         hits.triangle[begin + i] = is_hit ? query.hit.primID[i] : HitWave::kNoTriangle;
@@ -199,19 +168,6 @@ class EmbreeBvh final : public Accelerator {
   }
 
  private:
-  void closest_hits_of_packet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
-    RTCRayHit16 query;
-    const Packet packet(query.ray, rays);
-    expect_no_hit(query.hit);
-    embree_api::intersect(packet.valid, scene_.get(), Rays::coherent, query);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      hits[i].reset();
-      if (packet.valid[i] == 0 || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      const std::uint32_t triangle = query.hit.primID[i];
-      hits[i] = hit_on(ShearedRay(rays[i]), triangles_[triangle], triangle);
-    }
-  }
-
   void add_triangles() {
     const std::size_t count = triangles_.size();
     if (count == 0) return;

@@ -124,7 +124,9 @@ std::span<const Named<RayKind>> ray_kinds() {
       {"primary", {&RecordedRays::primary, false, Asked::single}, "camera rays, one by one"},
       {"bounce", {&RecordedRays::bounce, false, Asked::single}, "cosine-distributed rays from surfaces"},
       {"shadow", {&RecordedRays::shadow, true, Asked::single}, "any hit between surfaces and lights"},
-      {"primary-batch", {&RecordedRays::primary, false, Asked::row}, "camera rays, 16 at a time"},
+      {"primary-batch",
+       {&RecordedRays::primary, false, Asked::rows},
+       "camera rays, a wave of rows of 16 at a time"},
       {"bounce-wave",
        {&RecordedRays::bounce, false, Asked::wave},
        "cosine-distributed rays, a wave at a time"},
@@ -134,16 +136,8 @@ std::span<const Named<RayKind>> ray_kinds() {
 
 namespace {
 
-void trace_rows(const Accelerator& accel, std::span<const Ray> rays) {
-  std::array<std::optional<Hit>, kBatch> hits;
-  for (std::size_t i = 0; i + kBatch <= rays.size(); i += kBatch) {
-    accel.closest_hits(rays.subspan(i, kBatch), hits);
-    benchmark::DoNotOptimize(hits);
-  }
-}
-
 /// Putting the rays into the wave counts as well.
-void trace_waves(const Accelerator& accel, std::span<const Ray> rays, bool any_hit) {
+void trace_waves(const Accelerator& accel, std::span<const Ray> rays, bool any_hit, Coherence coherence) {
   RayWave wave;
   HitWave hits;
   Wave<std::uint8_t> blocked;
@@ -153,7 +147,7 @@ void trace_waves(const Accelerator& accel, std::span<const Ray> rays, bool any_h
     if (any_hit) {
       accel.occluded_rays(wave, count, blocked);
     } else {
-      accel.closest_hits(wave, count, hits);
+      accel.closest_hits(wave, count, coherence, hits);
     }
     benchmark::DoNotOptimize(blocked);
     benchmark::DoNotOptimize(hits);
@@ -177,10 +171,10 @@ void trace(const Accelerator& accel, const RecordedRays& recorded, const RayKind
   switch (kind.asked) {
     case Asked::single:
       return trace_single(accel, rays, kind.any_hit);
-    case Asked::row:
-      return trace_rows(accel, rays);
+    case Asked::rows:
+      return trace_waves(accel, rays, kind.any_hit, Coherence::steps);
     case Asked::wave:
-      return trace_waves(accel, rays, kind.any_hit);
+      return trace_waves(accel, rays, kind.any_hit, Coherence::none);
   }
 }
 

@@ -42,8 +42,8 @@ struct RaySize {
 };
 [[nodiscard]] RecordedRays record_rays(const Case& scene, const Accelerator& accel, const RaySize& size = {});
 
-/// How many rays are asked for at a time: one, a row of 16 (coherent rays), a wave.
-enum class Asked { single, row, wave };
+/// How many rays are asked for at a time: one, a wave of coherent rows, a wave.
+enum class Asked { single, rows, wave };
 
 /// How rays are asked for.
 struct RayKind {

@@ -9,10 +9,11 @@ class PathByPath final : public WaveIntegrator {
   PathByPath(const Integrator& integrator, const World& world) : integrator_(integrator), world_(world) {}
 
   void radiances(const RayWave& rays, const HitWave& first, std::size_t count, Tracer& tracer,
-                 std::span<Sampler> random, RgbWave& radiance) override {
+                 const SamplerWave& random, RgbWave& radiance) override {
     for (std::size_t i = 0; i < count; ++i) {
       const std::optional<Hit> hit = first.is_hit(i) ? std::optional(first[i]) : std::nullopt;
-      radiance.set(i, integrator_.radiance(rays[i], hit, world_, tracer, random[i]));
+      Sampler of_lane = random[i];
+      radiance.set(i, integrator_.radiance(rays[i], hit, world_, tracer, of_lane));
     }
   }
 

@@ -33,9 +33,9 @@ class WaveIntegrator {
   virtual ~WaveIntegrator() = default;
 
   /// Integrator::radiance() of the first `count` lanes.
-  /// @param random  of each lane, all of samples of one index; used up
+  /// @param random  the numbers of each lane's sample
   virtual void radiances(const RayWave& rays, const HitWave& first, std::size_t count, Tracer& tracer,
-                         std::span<Sampler> random, RgbWave& radiance) = 0;
+                         const SamplerWave& random, RgbWave& radiance) = 0;
 };
 
 /// Estimates the radiance along a camera ray. Paths end at emitters, which do not reflect (the report's

@@ -40,7 +40,7 @@ PathWave::PathWave(const WaveTechnique& technique, const World& world)
 }
 
 void PathWave::radiances(const RayWave& rays, const HitWave& first, std::size_t count, Tracer& tracer,
-                         std::span<Sampler> random, RgbWave& radiance) {
+                         const SamplerWave& random, RgbWave& radiance) {
   for (std::size_t i = 0; i < count; ++i) radiance.set(i, {});
   start(rays, first, count, random);
   for (depth_ = 1; count_ > 0; ++depth_) {
@@ -59,13 +59,13 @@ void PathWave::radiances(const RayWave& rays, const HitWave& first, std::size_t 
 }
 
 void PathWave::start(const RayWave& rays, const HitWave& first, std::size_t count,
-                     std::span<const Sampler> random) {
+                     const SamplerWave& random) {
   count_ = count;
   for (std::size_t i = 0; i < count; ++i) {
     id_[i] = static_cast<std::uint32_t>(i);
     throughput_.set(i, {1, 1, 1});
-    random_.set(i, random[i]);
   }
+  random_ = random;
   rays_.origin = rays.origin, rays_.direction = rays.direction;
   hits_ = first;
 }

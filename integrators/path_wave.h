@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "integrators/integrator.h"
@@ -25,10 +24,10 @@ class PathWave final : public WaveIntegrator {
   PathWave(const WaveTechnique& technique, const World& world);
 
   void radiances(const RayWave& rays, const HitWave& first, std::size_t count, Tracer& tracer,
-                 std::span<Sampler> random, RgbWave& radiance) override;
+                 const SamplerWave& random, RgbWave& radiance) override;
 
  private:
-  void start(const RayWave& rays, const HitWave& first, std::size_t count, std::span<const Sampler> random);
+  void start(const RayWave& rays, const HitWave& first, std::size_t count, const SamplerWave& random);
   void split_hits();
   void add_emission(RgbWave& radiance);
   void weigh_emission();

@@ -3,7 +3,6 @@
 #include <x86intrin.h>
 
 #include <cstdint>
-#include <span>
 #include <type_traits>
 
 #include "accel/accelerator.h"
@@ -42,14 +41,15 @@ class Tracer {
     return timed([&] { return accel_.occluded(ray); });
   }
 
-  void closest_hits(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
-    counts.rays += rays.size();
-    timed([&] { accel_.closest_hits(rays, hits); });
-  }
-
   void closest_hits(const RayWave& rays, std::size_t count, HitWave& hits) {
     counts.rays += count;
-    timed([&] { accel_.closest_hits(rays, count, hits); });
+    timed([&] { accel_.closest_hits(rays, count, Coherence::none, hits); });
+  }
+
+  /// Of camera rays: a row of neighbours in the first `width` lanes of each of `rows` steps.
+  void camera_hits(const RayWave& rays, std::size_t rows, std::size_t width, HitWave& hits) {
+    counts.rays += rows * width;
+    timed([&] { accel_.closest_hits(rays, rows * kWaveStep, Coherence::steps, hits); });
   }
 
   void occluded_rays(const RayWave& rays, std::size_t count, Wave<std::uint8_t>& blocked) {

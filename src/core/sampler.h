@@ -64,8 +64,6 @@ class Sampler {
     if (sequence == Sequence::sobol) start_sobol(seed, sample / replicates, sample % replicates);
   }
 
-  [[nodiscard]] std::uint32_t pixel() const { return pixel_; }
-
   /// Uniform 32-bit integer: for choices among many, where 24 bits are too few.
   [[nodiscard]] std::uint32_t next_bits() {
     if (sequence_ == Sequence::independent) return next_independent();
@@ -132,13 +130,6 @@ class Sampler {
     const std::uint32_t index = shuffled_index(reversed_index, low(keys));
     const std::uint64_t point = scrambled_sobol(index, high(keys), low(more));
     return {to_unit(high(point), high(more)), to_unit(low(point))};
-  }
-
-  /// That of another sample of the same pixel and replicate after as many draws.
-  [[nodiscard]] Sampler of_sample(std::uint32_t reversed_index) const {
-    Sampler other = *this;
-    other.reversed_index_ = reversed_index;
-    return other;
   }
 
  private:

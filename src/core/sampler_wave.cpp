@@ -73,6 +73,7 @@ SamplerWave::SamplerWave() : SamplerWave(HWY_DYNAMIC_DISPATCH(sampler_wave_draws
 void SamplerWave::set(std::size_t lane, const Sampler& sampler) {
   sequence_ = sampler.sequence_;
   if (sequence_ == Sequence::independent) {
+    samplers_.resize(kWaveSize);
     samplers_[lane] = sampler;
   } else {
     reversed_index_ = sampler.reversed_index_;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "src/core/lane_list.h"
@@ -33,6 +32,10 @@ class SamplerWave {
   explicit SamplerWave(const Draws& draws) : draws_(draws) {}
 
   void set(std::size_t lane, const Sampler& sampler);
+
+  /// Goes to another sample of the same pixels and replicate, after as many draws, with Sequence::sobol.
+  void set_sample(std::uint32_t reversed_index) { reversed_index_ = reversed_index; }
+
   [[nodiscard]] Sampler operator[](std::size_t lane) const;
 
   /// As LaneList::keep().
@@ -49,8 +52,8 @@ class SamplerWave {
   Draws draws_;
   Sequence sequence_ = Sequence::sobol;
   std::uint32_t reversed_index_ = 0;
-  Wave<std::uint64_t> keys_;                   // with Sequence::sobol
-  std::array<Sampler, kWaveSize> samplers_{};  // else
+  Wave<std::uint64_t> keys_;       // with Sequence::sobol
+  std::vector<Sampler> samplers_;  // else; of all lanes, once there is one
 };
 
 /// Those that this machine can run, the fastest first. All draw the same numbers, bit for bit.

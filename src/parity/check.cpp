@@ -34,18 +34,38 @@ struct Answers {
   std::vector<std::uint8_t> occluded;
 };
 
-Answers ask(const Accelerator& accel, std::span<const Ray> rays, bool in_batches) {
+/// @param waves  as waves of this coherence, but for rays that do not begin at their origins; else one by one
+Answers ask(const Accelerator& accel, std::span<const Ray> rays, std::optional<Coherence> waves) {
   Answers a{std::vector<std::optional<Hit>>(rays.size()), std::vector<std::uint8_t>(rays.size())};
-  if (in_batches) {
-    accel.closest_hits(rays, a.hits);
-    accel.occluded_rays(rays, a.occluded);
-    return a;
-  }
+  std::vector<std::size_t> in_waves;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    a.hits[i] = accel.closest_hit(rays[i]);
-    a.occluded[i] = accel.occluded(rays[i]) ? 1 : 0;
+    if (waves && rays[i].t_min == 0) {
+      in_waves.push_back(i);
+    } else {
+      a.hits[i] = accel.closest_hit(rays[i]);
+      a.occluded[i] = accel.occluded(rays[i]) ? 1 : 0;
+    }
+  }
+  RayWave wave;
+  HitWave hits;
+  Wave<std::uint8_t> occluded;
+  for (std::size_t begin = 0; begin < in_waves.size(); begin += kWaveSize) {
+    const auto lanes = std::span(in_waves).subspan(begin, std::min(kWaveSize, in_waves.size() - begin));
+    for (std::size_t k = 0; k < lanes.size(); ++k) wave.set(k, rays[lanes[k]]);
+    accel.closest_hits(wave, lanes.size(), *waves, hits);
+    accel.occluded_rays(wave, lanes.size(), occluded);
+    for (std::size_t k = 0; k < lanes.size(); ++k) {
+      if (hits.is_hit(k)) a.hits[lanes[k]] = hits[k];
+      a.occluded[lanes[k]] = occluded[k];
+    }
   }
   return a;
+}
+
+/// How the rays of a task are asked for.
+std::optional<Coherence> waves_of(std::size_t task) {
+  if (task % 2 == 0) return std::nullopt;
+  return task % 4 == 1 ? Coherence::none : Coherence::steps;
 }
 
 void count_ray(const Expectation& expected, Tally& tally) {
@@ -78,7 +98,7 @@ void add_fault(const Fault& fault, Record& record) {
 }
 
 /// The part of a contestant's record that one task makes.
-Record examine(const Contestant& contestant, const Questions& q, bool in_batches) {
+Record examine(const Contestant& contestant, const Questions& q, std::optional<Coherence> waves) {
   Record record{.name = contestant.name};
   std::vector<std::size_t> asked;
   std::vector<Ray> rays;
@@ -87,7 +107,7 @@ Record examine(const Contestant& contestant, const Questions& q, bool in_batches
     asked.push_back(i);
     rays.push_back(q.rays[i]);
   }
-  const Answers answers = ask(*contestant.accel, rays, in_batches);
+  const Answers answers = ask(*contestant.accel, rays, waves);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const Expectation& expected = q.expected[asked[i]];
     const RayKind kind = kind_of(q.indices[asked[i]]);
@@ -149,7 +169,7 @@ std::vector<Record> check_parity(const Oracle& oracle, const RaySource& source,
   parallel_for(tasks, [&](std::size_t task) {
     const auto begin = static_cast<std::uint32_t>(task) * kRaysATask;
     const Questions q = make_questions(oracle, source, begin, std::min(count, begin + kRaysATask));
-    for (const Contestant& c : contestants) parts[task].push_back(examine(c, q, task % 2 == 1));
+    for (const Contestant& c : contestants) parts[task].push_back(examine(c, q, waves_of(task)));
     per_cent.task_done();
   });
   std::vector<Record> records;

@@ -52,7 +52,7 @@ struct Record {
 using CheckProgress = std::function<void(double)>;
 
 /// Asks every contestant about the rays 0 to count - 1 of the source, closest hit and occlusion, half of them
-/// in batches, and judges the answers by the oracle. The records are the same whatever the threads.
+/// as waves, and judges the answers by the oracle. The records are the same whatever the threads.
 [[nodiscard]] std::vector<Record> check_parity(const Oracle& oracle, const RaySource& source,
                                                std::span<const Contestant> contestants, std::uint32_t count,
                                                const CheckProgress& progress);

@@ -49,38 +49,43 @@ const std::vector<AimRays>& all_aim_rays() {
   return all;
 }
 
-CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings, int x, int y, std::size_t count)
+CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings, int x, int y, std::size_t count,
+                       std::size_t lane)
     : camera_(camera),
       settings_(settings),
       count_(count),
+      lane_(lane),
       aim_(HWY_DYNAMIC_DISPATCH(aim_rays)().function),
       replicate_(settings.replicates) {  // that of no sample
   pixels_.x = x, pixels_.y = y;
 }
 
-void CameraRays::aim(std::uint32_t sample, std::span<Ray> rays) {
-  if (settings_.sequence == Sequence::independent) return aim_independent(sample, rays);
+void CameraRays::aim(std::uint32_t sample, VecWave& directions, SamplerWave& random) {
+  if (settings_.sequence == Sequence::independent) return aim_independent(sample, directions, random);
   if (const std::uint32_t replicate = sample % settings_.replicates; replicate != replicate_) {
     replicate_ = replicate;
     for (std::size_t i = 0; i < count_; ++i) {
-      random_[i] = start(i, sample);
-      pixels_.set(i, random_[i].next_pair_keys());
+      Sampler of_pixel = start(i, sample);
+      pixels_.set(i, of_pixel.next_pair_keys());
+      random.set(lane_ + i, of_pixel);
     }
   }
-  reversed_index_ = reverse_bits(sample / settings_.replicates);
+  const std::uint32_t reversed_index = reverse_bits(sample / settings_.replicates);
+  random.set_sample(reversed_index);
   PixelBlock::Directions to;
-  aim_(camera_, pixels_, reversed_index_, to);
-  for (std::size_t i = 0; i < count_; ++i) {
-    rays[i] = {.origin = camera_.eye(), .direction = {to.x[i], to.y[i], to.z[i]}};
-  }
+  aim_(camera_, pixels_, reversed_index, to);
+  for (std::size_t i = 0; i < count_; ++i) directions.set(lane_ + i, {to.x[i], to.y[i], to.z[i]});
 }
 
-void CameraRays::aim_independent(std::uint32_t sample, std::span<Ray> rays) {
+void CameraRays::aim_independent(std::uint32_t sample, VecWave& directions, SamplerWave& random) {
   for (std::size_t i = 0; i < count_; ++i) {
-    random_[i] = start(i, sample);
-    const Vec2 u = random_[i].next_2d();
+    Sampler of_pixel = start(i, sample);
+    const Vec2 u = of_pixel.next_2d();
     const int x = pixels_.x + static_cast<int>(i);
-    rays[i] = camera_.ray_through(static_cast<float>(x) + u.x, static_cast<float>(pixels_.y) + u.y);
+    directions.set(
+        lane_ + i,
+        camera_.ray_through(static_cast<float>(x) + u.x, static_cast<float>(pixels_.y) + u.y).direction);
+    random.set(lane_ + i, of_pixel);
   }
 }
 

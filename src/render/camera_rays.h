@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
+#include "src/core/sampler_wave.h"
 #include "src/render/render.h"
 
 namespace lemma {
@@ -38,33 +38,30 @@ struct AimRays {
 /// Those that this machine can run, the fastest first. All give the same directions, bit for bit.
 [[nodiscard]] const std::vector<AimRays>& all_aim_rays();
 
-/// Camera rays of a block of pixels, one sample of each at a time, and the random numbers that are left.
+/// Camera rays of a block of pixels, one sample of each at a time, in lanes of a wave that lie together.
 class CameraRays {
  public:
   /// Keeps a reference to the camera.
   /// @param count  of pixels from (x, y) on, up to PixelBlock::kSize
-  CameraRays(const Camera& camera, const RenderSettings& settings, int x, int y, std::size_t count);
+  /// @param lane   of the first pixel
+  CameraRays(const Camera& camera, const RenderSettings& settings, int x, int y, std::size_t count,
+             std::size_t lane);
 
-  /// Goes to the sample of this index. The same as Sampler::next_2d() and Camera::ray_through() of each
-  /// pixel.
-  /// @param rays  as many as pixels
-  void aim(std::uint32_t sample, std::span<Ray> rays);
-
-  /// The numbers of pixel i's sample after the first pair.
-  [[nodiscard]] Sampler random(std::size_t i) const { return random_[i].of_sample(reversed_index_); }
+  /// Goes to the sample of this index. The same as Sampler::next_2d() and the direction of
+  /// Camera::ray_through() of each pixel.
+  /// @param random  of the samples after the first pair; what is in it stays from call to call
+  void aim(std::uint32_t sample, VecWave& directions, SamplerWave& random);
 
  private:
   [[nodiscard]] Sampler start(std::size_t i, std::uint32_t sample) const;
-  void aim_independent(std::uint32_t sample, std::span<Ray> rays);
+  void aim_independent(std::uint32_t sample, VecWave& directions, SamplerWave& random);
 
   const Camera& camera_;
   RenderSettings settings_;
-  std::size_t count_;
+  std::size_t count_, lane_;
   decltype(AimRays::function) aim_;  // the fastest
   PixelBlock pixels_;
-  std::array<Sampler, PixelBlock::kSize> random_;  // of any sample of the replicate that was last seen
-  std::uint32_t replicate_;
-  std::uint32_t reversed_index_ = 0;
+  std::uint32_t replicate_;  // that was last seen
 };
 
 }  // namespace lemma

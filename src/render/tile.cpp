@@ -1,9 +1,7 @@
 #include "src/render/tile.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <optional>
 
 #include "src/render/camera_rays.h"
 
@@ -11,7 +9,7 @@ namespace lemma {
 namespace {
 
 constexpr int kTileSize = 16;
-static_assert(kTileSize <= PixelBlock::kSize && std::size_t{kTileSize} * kTileSize <= kWaveSize);
+static_assert(kTileSize <= PixelBlock::kSize && kTileSize <= kWaveStep && kTileSize * kWaveStep <= kWaveSize);
 constexpr std::uint32_t kTimedSampleStride = 64;  // one sample of a tile in so many is timed
 
 bool is_radiance(const Rgb& c) {
@@ -29,8 +27,13 @@ class TileSamples {
         film_(film),
         waves_(integrator.waves(world)),
         tracer_(world.accel) {
-    for (int y = tile.y; y < tile.y + tile.height; ++y)
-      rows_.emplace_back(camera, settings, tile.x, y, width_);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(tile.height); ++row) {
+      rows_.emplace_back(camera, settings, tile.x, tile.y + static_cast<int>(row), width_, lane_of(row));
+      for (std::size_t i = 0; i < kWaveStep; ++i) {
+        const float t_max = i < width_ ? std::numeric_limits<float>::infinity() : 0;  // no ray
+        rays_.set(lane_of(row) + i, {camera.eye(), {}, 0, t_max});
+      }
+    }
   }
 
   void render(std::uint32_t sample) {
@@ -38,8 +41,9 @@ class TileSamples {
     const bool timed =
         (sample + static_cast<std::uint32_t>(tile_.x + tile_.y) / kTileSize) % kTimedSampleStride == 0;
     const Tracer::Timing timing(tracer_, timed);
-    for (std::size_t row = 0; row < rows_.size(); ++row) aim(row, sample);
-    waves_->radiances(rays_, hits_, rows_.size() * width_, tracer_, random_, radiance_);
+    for (CameraRays& row : rows_) row.aim(sample, rays_.direction, random_);
+    tracer_.camera_hits(rays_, rows_.size(), width_, hits_);
+    waves_->radiances(rays_, hits_, lane_of(rows_.size()), tracer_, random_, radiance_);
     for (std::size_t row = 0; row < rows_.size(); ++row) add(row, sample);
   }
 
@@ -49,26 +53,15 @@ class TileSamples {
   }
 
  private:
-  /// The rays of a row are traced together: as they start at one point and are neighbours, that is fast.
-  void aim(std::size_t row, std::uint32_t sample) {
-    std::array<Ray, kTileSize> rays;
-    std::array<std::optional<Hit>, kTileSize> hits;
-    rows_[row].aim(sample, {rays.data(), width_});
-    tracer_.closest_hits({rays.data(), width_}, {hits.data(), width_});
-    for (std::size_t i = 0; i < width_; ++i) {
-      const std::size_t lane = row * width_ + i;
-      rays_.set(lane, rays[i]);
-      hits_.triangle[lane] = HitWave::kNoTriangle;
-      if (hits[i]) hits_.set(lane, *hits[i]);
-      random_[lane] = rows_[row].random(i);
-    }
-  }
+  /// A row of pixels is a step of the wave, of which a narrow tile leaves the last lanes without rays: those
+  /// of a row are traced together, which is fast, as they start at one point and are neighbours.
+  static std::size_t lane_of(std::size_t row) { return row * kWaveStep; }
 
   void add(std::size_t row, std::uint32_t sample) {
     const int y = tile_.y + static_cast<int>(row);
     for (std::size_t i = 0; i < width_; ++i) {
       const int x = tile_.x + static_cast<int>(i);
-      const Rgb value = radiance_[row * width_ + i];
+      const Rgb value = radiance_[lane_of(row) + i];
       film_.prepare(x, y, sample);
       if (is_radiance(value)) {
         film_.add(x, y, sample, value);
@@ -90,7 +83,7 @@ class TileSamples {
   std::unique_ptr<WaveIntegrator> waves_;
   Tracer tracer_;
   std::vector<CameraRays> rows_;
-  std::array<Sampler, kWaveSize> random_;
+  SamplerWave random_;
   RayWave rays_;
   HitWave hits_;
   RgbWave radiance_;

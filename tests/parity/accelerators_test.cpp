@@ -231,20 +231,6 @@ TEST(GridParity, WallsOnTheBoundingBoxAreHit) {
 
 class EveryBackend : public testing::TestWithParam<std::string_view> {};
 
-TEST_P(EveryBackend, BatchesGiveTheSameAsSingleRays) {
-  const auto triangles = test::random_triangles(500, 0.2f, 36);
-  const auto accel = make(GetParam(), triangles);
-  const auto rays = rays_around(bounds_of(triangles), 100);
-  std::vector<std::optional<Hit>> hits(rays.size());
-  std::vector<std::uint8_t> blocked(rays.size());
-  accel->closest_hits(rays, hits);
-  accel->occluded_rays(rays, blocked);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    EXPECT_EQ(hits[i], accel->closest_hit(rays[i]));
-    EXPECT_EQ(blocked[i] != 0, accel->occluded(rays[i]));
-  }
-}
-
 TEST_P(EveryBackend, RangeIsOpenAtBothEnds) {
   const std::vector<Triangle> plane{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}};
   const auto accel = make(GetParam(), plane);

@@ -30,12 +30,16 @@ class Comparison final : public Accelerator {
     if (!column_ && blocked != b_.occluded(ray)) count(ray);
     return blocked;
   }
-  void closest_hits(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const override {
-    if (!column_) return Accelerator::closest_hits(rays, hits);
-    std::vector<std::optional<Hit>> others(rays.size());
-    a_.closest_hits(rays, hits);
-    b_.closest_hits(rays, others);
-    if (hits[*column_] != others[*column_]) count(rays[*column_]);
+  void closest_hits(const RayWave& rays, std::size_t count, Coherence coherence,
+                    HitWave& hits) const override {
+    if (!column_ || coherence == Coherence::none)
+      return Accelerator::closest_hits(rays, count, coherence, hits);
+    HitWave others;
+    a_.closest_hits(rays, count, coherence, hits);
+    b_.closest_hits(rays, count, coherence, others);
+    const bool differ = hits.is_hit(*column_) != others.is_hit(*column_) ||
+                        (hits.is_hit(*column_) && hits[*column_] != others[*column_]);
+    if (differ) this->count(rays[*column_]);
   }
   std::size_t memory_bytes() const override { return 0; }
   std::string description() const override { return "comparison"; }

@@ -67,9 +67,9 @@ class WaveQueries : public testing::TestWithParam<std::string_view> {};
 /// What queries of waves and of single rays answer is the same, bit for bit.
 /// @return how many rays hit something
 std::size_t expect_same_answers(const Accelerator& accel, const RayWave& rays, std::size_t count,
-                                HitWave& hits) {
+                                HitWave& hits, Coherence coherence = Coherence::none) {
   Wave<std::uint8_t> blocked;
-  accel.closest_hits(rays, count, hits);
+  accel.closest_hits(rays, count, coherence, hits);
   accel.occluded_rays(rays, count, blocked);
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -103,6 +103,26 @@ TEST_P(WaveQueries, GiveTheSameAsSingleRays) {
   EXPECT_LT(found, asked * 3 / 4);
 }
 
+/// Rows of camera rays, some of them ended before: where there are no ties they find the same as single rays.
+TEST_P(WaveQueries, GiveTheSameInCoherentSteps) {
+  const auto triangles = test::random_triangles(500, 0.5f, 36);
+  const auto accel = find_named(accelerators(), GetParam()).value()(triangles, {});
+  RayWave rays;
+  HitWave hits;
+  std::size_t found = 0;
+  for (std::uint32_t k = 0; k < 40; ++k) {
+    Sampler random(65, k, 0);
+    const Vec3 from = random_point(random) * 4 - Vec3(2);
+    for (std::size_t i = 0; i < kWaveSize; ++i) {
+      const Vec3 to(static_cast<float>(i % 16) / 16, static_cast<float>(i / 16) / 16, random.next());
+      rays.set(i, {from, to - from, 0, k % 2 == 0 || i % 16 < 5 ? kInf : 0});
+    }
+    found += expect_same_answers(*accel, rays, kWaveSize, hits, Coherence::steps);
+    ASSERT_FALSE(HasFailure());
+  }
+  EXPECT_GT(found, std::size_t{40} * kWaveSize / 4);
+}
+
 /// Rays to vertices and edge midpoints of a closed mesh, all of whose triangles are there twice: which of
 /// them is found depends on roundings and on the order of tests.
 TEST_P(WaveQueries, GiveTheSameAtEdgesAndTies) {
@@ -131,7 +151,7 @@ TEST_P(WaveQueries, EmptySceneHasNoHits) {
   HitWave hits;
   Wave<std::uint8_t> blocked;
   for (std::size_t i = 0; i < kWaveSize; ++i) hits.triangle[i] = 7, blocked[i] = 1;
-  accel->closest_hits(rays, kWaveSize, hits);
+  accel->closest_hits(rays, kWaveSize, Coherence::none, hits);
   accel->occluded_rays(rays, kWaveSize, blocked);
   for (std::size_t i = 0; i < kWaveSize; ++i) {
     ASSERT_FALSE(hits.is_hit(i));

@@ -32,16 +32,16 @@ class Paths {
       const Vec2 u = random_.back().next_2d();
       rays_.set(i, camera.ray_through(u.x * width, u.y * height));
     }
-    accel.closest_hits(rays_, kPaths, hits_);
+    accel.closest_hits(rays_, kPaths, Coherence::none, hits_);
   }
 
   [[nodiscard]] Followed in_waves(const Integrator& integrator, const World& world) const {
     Followed followed;
     Tracer tracer(world.accel);
-    std::vector<Sampler> random = random_;
+    SamplerWave random;
+    for (std::size_t i = 0; i < kPaths; ++i) random.set(i, random_[i]);
     const auto waves = integrator.waves(world);
     for (int k = 0; k < 2; ++k) {  // the second time the memory holds what the first left
-      random = random_;
       tracer.counts = {};
       waves->radiances(rays_, hits_, kPaths, tracer, random, followed.radiance);
     }
