@@ -59,10 +59,7 @@ RTCRay to_embree(const Ray& ray) {
 
 /// Embree's answer to rays that are not finite is undefined. Without branches, for loops over many rays.
 bool is_finite(const Ray& ray) {
-  const auto all_finite = [](const Vec3& v) {
-    return std::isfinite(v.x) & std::isfinite(v.y) & std::isfinite(v.z);
-  };
-  return all_finite(ray.origin) & all_finite(ray.direction) & (ray.t_min < ray.t_max);
+  return lemma::is_finite(ray.origin) & lemma::is_finite(ray.direction) & (ray.t_min < ray.t_max);
 }
 
 constexpr std::size_t kPacket = 16;

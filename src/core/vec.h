@@ -39,8 +39,9 @@ template <class T>
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
 
+/// Without branches, for loops over lanes.
 [[nodiscard]] inline bool is_finite(const Vec3& a) {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+  return std::isfinite(a.x) & std::isfinite(a.y) & std::isfinite(a.z);
 }
 
 }  // namespace lemma
