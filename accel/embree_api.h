@@ -30,10 +30,11 @@ inline void intersect(const int* valid, RTCScene scene, Rays how, RTCRayHit16& r
   rtcIntersect16(valid, scene, &rays, &arguments);
 }
 
-inline void occluded(const int* valid, RTCScene scene, Rays how, RTCRay16& rays) {
+/// Of incoherent rays.
+inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
-  arguments.flags = how == Rays::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
   rtcOccluded16(valid, scene, &rays, &arguments);
 }
 
@@ -60,11 +61,11 @@ inline void intersect(const int* valid, RTCScene scene, Rays how, RTCRayHit16& r
   rtcIntersect16(valid, scene, &context, &rays);
 }
 
-inline void occluded(const int* valid, RTCScene scene, Rays how, RTCRay16& rays) {
+/// Of incoherent rays.
+inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags =
-      how == Rays::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   rtcOccluded16(valid, scene, &context, &rays);
 }
 

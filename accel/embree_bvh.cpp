@@ -152,7 +152,7 @@ class EmbreeBvh final : public Accelerator {
     RTCRay16 query;
     for (std::size_t begin = 0; begin < count; begin += kPacket) {
       const Packet packet(query, rays, begin, count);
-      embree_api::occluded(packet.valid, scene_.get(), Rays::incoherent, query);
+      embree_api::occluded(packet.valid, scene_.get(), query);
       for (std::size_t i = 0; i < kPacket; ++i)
         blocked[begin + i] = (packet.valid[i] != 0) & (query.tfar[i] < 0) ? 1 : 0;
     }

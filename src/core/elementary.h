@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 // Elementary functions without branches, tables or calls, for loops over lanes that compilers turn into
@@ -76,20 +75,10 @@ template <class T>
   return x < -708 ? 0 : power + power * rest;
 }
 
-/// For all x: infinity above 88.73; below -87.3 subnormal numbers, and 0 from -103.98 on.
-[[gnu::always_inline, nodiscard]] inline float exp(float x) {
-  const double value = exp(static_cast<double>(x));
-  return x > 89 ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
-}
-
 /// exp(x) - 1 for x in [-708, 0], within 4e-14 however small x is.
 [[gnu::always_inline, nodiscard]] inline double expm1(double x) {
   const auto [power, rest] = detail::exponential(x);
   return power * rest + (power - 1);
-}
-
-[[gnu::always_inline, nodiscard]] inline float expm1(float x) {
-  return static_cast<float>(expm1(static_cast<double>(x)));
 }
 
 /// log(1 + x) for x in (-1, 0], within 4e-14 however small x is. For x <= -1 some finite number.
@@ -109,10 +98,6 @@ template <class T>
   const double s = f / (2 + f), s2 = s * s;
   constexpr double c[] = {2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15};
   return k * std::numbers::ln2 + (2 * s + s * (s2 * detail::polynomial(s2, c)));
-}
-
-[[gnu::always_inline, nodiscard]] inline float log1p(float x) {
-  return static_cast<float>(log1p(static_cast<double>(x)));
 }
 
 /// asin(x) for |x| <= 1, within 3e-14; NaN beyond.
@@ -140,20 +125,6 @@ template <class T>
       0x1.55555ep-3f;
   const float angle = y + y * (y2 * rest);
   return steep ? std::numbers::pi_v<float> / 2 - 2 * angle : angle;
-}
-
-/// acos(x) for |x| <= 1, within 2e-14; NaN beyond.
-[[gnu::always_inline, nodiscard]] inline double acos(double x) {
-  const double size = std::abs(x), half = 0.5 * (1 - size);
-  const bool steep = size > 0.5;
-  const double y2 = steep ? half : x * x, y = steep ? std::sqrt(half) : x;
-  const double angle = y + y * detail::asin_rest(y2);
-  const double twice = 2 * angle;
-  return steep ? (x < 0 ? std::numbers::pi - twice : twice) : std::numbers::pi / 2 - angle;
-}
-
-[[gnu::always_inline, nodiscard]] inline float acos(float x) {
-  return static_cast<float>(acos(static_cast<double>(x)));
 }
 
 }  // namespace lemma::elementary

@@ -48,32 +48,18 @@ TEST(Elementary, Exponential) {
       expect_within(elementary::exp(x), std::exp(static_cast<long double>(x)), 2e-14, x);
     }
   });
-  for_sizes(104, [](double size) {
-    for (const float x : {static_cast<float>(-size), static_cast<float>(size)}) {
-      if (x < 88.72f) expect_rounded(elementary::exp(x), std::exp(static_cast<long double>(x)), x);
-    }
-  });
 }
 
 TEST(Elementary, ExponentialBeyondItsRange) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   EXPECT_EQ(elementary::exp(-708.1), 0);
   EXPECT_EQ(elementary::exp(-infinite), 0);
-  for (const float x : {-103.98f, -1e30f, -static_cast<float>(infinite)}) EXPECT_EQ(elementary::exp(x), 0);
-  EXPECT_EQ(elementary::exp(-103.97f), std::numeric_limits<float>::denorm_min());
-  for (const float x : {88.73f, 710.0f, 1e30f, static_cast<float>(infinite)})
-    EXPECT_EQ(elementary::exp(x), std::numeric_limits<float>::infinity());
   EXPECT_TRUE(std::isnan(elementary::exp(kNaN)));
-  EXPECT_TRUE(std::isnan(elementary::exp(std::numeric_limits<float>::quiet_NaN())));
 }
 
 TEST(Elementary, ExponentialLessOne) {
   for_sizes(708, [](double size) {
     expect_within(elementary::expm1(-size), std::expm1(static_cast<long double>(-size)), 4e-14, -size);
-  });
-  for_sizes(20, [](double size) {
-    const auto x = static_cast<float>(-size);
-    expect_rounded(elementary::expm1(x), std::expm1(static_cast<long double>(x)), x);
   });
   EXPECT_TRUE(std::isnan(elementary::expm1(kNaN)));
 }
@@ -84,28 +70,19 @@ TEST(Elementary, LogarithmOfOnePlus) {
     const double above = std::min(1 - size * 0x1p-20, 1 - 0x1p-53);  // near -1
     expect_within(elementary::log1p(-above), std::log1p(static_cast<long double>(-above)), 4e-14, -above);
   });
-  for_sizes(1 - 0x1p-24, [](double size) {
-    const float x = -std::min(static_cast<float>(size), 1 - 0x1p-24f);
-    expect_rounded(elementary::log1p(x), std::log1p(static_cast<long double>(x)), x);
-  });
   EXPECT_TRUE(std::isnan(elementary::log1p(kNaN)));
   for (const double x : {-1.0, -1.5, -2.0}) EXPECT_TRUE(std::isfinite(elementary::log1p(x)));
 }
 
-TEST(Elementary, ArcSineAndCosine) {
+TEST(Elementary, ArcSine) {
   for_sizes(1, [](double size) {
     for (const double x : {-size, size, 1 - size, size - 1}) {
       expect_within(elementary::asin(x), std::asin(static_cast<long double>(x)), 3e-14, x);
-      expect_within(elementary::acos(x), std::acos(static_cast<long double>(x)), 2e-14, x);
       const auto y = static_cast<float>(x);
       expect_rounded(elementary::asin(y), std::asin(static_cast<long double>(y)), y);
-      expect_rounded(elementary::acos(y), std::acos(static_cast<long double>(y)), y);
     }
   });
-  for (const double x : {kNaN, -1.0000001, 1.0000001}) {
-    EXPECT_TRUE(std::isnan(elementary::asin(x)));
-    EXPECT_TRUE(std::isnan(elementary::acos(x)));
-  }
+  for (const double x : {kNaN, -1.0000001, 1.0000001}) EXPECT_TRUE(std::isnan(elementary::asin(x)));
 }
 
 /// The polynomial's 1.7e-8; six roundings of 2^-24 of the angle, which the difference from pi / 2 may double
