@@ -41,9 +41,8 @@ bool has_lobes(const LightQueryWave& at, std::size_t begin) {
 }
 
 template <bool kLobes>
-void weigh_whole_step(const WholeOutline& light, const LightQueryWave& at, std::size_t begin,
+void weigh_whole_step(const WholeOutline& outline, const LightQueryWave& at, std::size_t begin,
                       Wave<double>& weights, Wave<std::uint32_t>& undone) {
-  const WholeOutline outline = light;
 #pragma GCC ivdep
   for (std::size_t i = begin; i < begin + kWaveStep; ++i) {
     const Reflection reflection =

@@ -1,5 +1,7 @@
 #include "src/shading/phong_wave.h"
 
+#include <type_traits>
+
 #include "src/core/instruction_sets.h"
 #include "src/shading/phong_formulas.h"
 
@@ -31,11 +33,13 @@ bool is_lambert(const MaterialWave& materials, std::size_t begin) {
 template <class Formulas, class Use>
 void for_steps(const MaterialWave& materials, std::size_t count, const Use& use) {
   for (std::size_t begin = 0; begin < count; begin += kWaveStep) {
-    if (is_lambert(materials, begin)) {
-      use(LambertFormulas(), begin);
-    } else {
-      use(Formulas(), begin);
+    if constexpr (!std::is_same_v<Formulas, LambertFormulas>) {
+      if (!is_lambert(materials, begin)) {
+        use(Formulas(), begin);
+        continue;
+      }
     }
+    use(LambertFormulas(), begin);
   }
 }
 
