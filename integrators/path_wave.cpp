@@ -188,7 +188,7 @@ void PathWave::add_lights(Tracer& tracer, RgbWave& radiance) {
 
 void PathWave::sample_lights() {
   if (lights_ == nullptr) return sample_lights_one_by_one();
-  random_.draw_choice_pairs(count_, pairs_);
+  random_.draw_partner_pairs(count_, pairs_);
   lights_->sample_wave(vertices_.query, count_, pairs_, samples_);
 }
 

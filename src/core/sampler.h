@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "src/core/named.h"
 #include "src/core/sobol.h"
@@ -45,9 +46,10 @@ enum class Sequence {
 
 /// The random numbers of one camera sample. They depend on (seed, pixel, sample index) and on how many were
 /// drawn before, on nothing else: not on threads, tiles or other pixels. With Sequence::sobol the n-th draws
-/// of a pixel's samples are spread evenly over the line or, drawn as pairs, the square; different draws,
-/// pixels and seeds are independent. With `replicates` above 1, the samples i, i + replicates, i + 2
-/// replicates, ... have a scrambling of their own, independent of the others.
+/// of a pixel's samples are spread evenly over the line or, drawn as pairs, the square, and a pair with its
+/// partner over four dimensions; other draws, pixels and seeds are independent. With `replicates` above 1,
+/// the samples i, i + replicates, i + 2 replicates, ... have a scrambling of their own, independent of the
+/// others.
 ///
 /// Independent numbers are words of Philox. The keys of scramblings are those of a SplitMix64 for each pixel,
 /// which takes a seventh of the work; it starts at an output of the seed's own. They repeat each other by
@@ -87,7 +89,17 @@ class Sampler {
       return {to_unit(coarse, fine), next()};
     }
     const std::uint64_t keys = next_keys(), more = next_keys();
+    order_ = low(keys);
     return choice_pair_of(reversed_index_, keys, more);
+  }
+
+  /// next_choice_pair(), spread evenly in four dimensions together with the pair drawn last, if that has no
+  /// partner yet: a choice of a light goes with the direction by which the place that it lights was found.
+  [[nodiscard]] ChoicePair next_partner_pair() {
+    if (sequence_ == Sequence::independent) return next_choice_pair();
+    const std::uint64_t keys = next_keys(), more = next_keys();
+    const std::uint32_t order = std::exchange(order_, low(keys));
+    return partner_pair_of(reversed_index_, order, keys, more);
   }
 
   [[nodiscard]] Vec2 next_2d() {
@@ -111,6 +123,7 @@ class Sampler {
   /// Draws a pair, of which it returns the keys.
   [[nodiscard]] PairKeys next_pair_keys() {
     const std::uint64_t keys = next_keys();
+    order_ = low(keys);
     return pair_keys(keys, next_keys());
   }
 
@@ -127,9 +140,12 @@ class Sampler {
   /// next_choice_pair()
   [[nodiscard]] static ChoicePair choice_pair_of(std::uint32_t reversed_index, std::uint64_t keys,
                                                  std::uint64_t more) {
-    const std::uint32_t index = shuffled_index(reversed_index, low(keys));
-    const std::uint64_t point = scrambled_sobol(index, high(keys), low(more));
-    return {to_unit(high(point), high(more)), to_unit(low(point))};
+    return choice_pair_at(shuffled_index(reversed_index, low(keys)), keys, more);
+  }
+  /// next_partner_pair(), `order` being the lower half of the keys of the pair drawn last
+  [[nodiscard]] static ChoicePair partner_pair_of(std::uint32_t reversed_index, std::uint32_t order,
+                                                  std::uint64_t keys, std::uint64_t more) {
+    return choice_pair_at(partner_index(shuffled_index(reversed_index, order)), keys, more);
   }
 
  private:
@@ -145,6 +161,10 @@ class Sampler {
   }
   static std::uint32_t low(std::uint64_t keys) { return static_cast<std::uint32_t>(keys); }
   static std::uint32_t high(std::uint64_t keys) { return static_cast<std::uint32_t>(keys >> 32); }
+  static ChoicePair choice_pair_at(std::uint32_t index, std::uint64_t keys, std::uint64_t more) {
+    const std::uint64_t point = scrambled_sobol(index, high(keys), low(more));
+    return {to_unit(high(point), high(more)), to_unit(low(point))};
+  }
   static std::uint32_t bits_of(std::uint32_t reversed_index, std::uint64_t keys) {
     return scrambled_sobol_x(shuffled_index(reversed_index, low(keys)), high(keys));
   }
@@ -170,6 +190,7 @@ class Sampler {
   std::array<std::uint32_t, 4> words_{};
   std::uint32_t used_ = 4;
   std::uint32_t reversed_index_ = 0;
+  std::uint32_t order_ = 0;  // of the pair drawn last: the lower half of its keys
   std::uint64_t keys_ = 0;
   Sequence sequence_;
 };

@@ -20,11 +20,15 @@ class SamplerWave {
  public:
   /// Draws for all lanes with Sequence::sobol, compiled for one instruction set.
   struct Draws {
-    using Keys = Wave<std::uint64_t>;
+    /// Of each lane, the state of a Sampler
+    struct Keys {
+      Wave<std::uint64_t> next;
+      Wave<std::uint32_t> order;
+    };
+    using Pairs = void (*)(Keys& keys, std::uint32_t reversed_index, std::size_t count, ChoicePairWave& u);
     void (*units)(Keys& keys, std::uint32_t reversed_index, std::size_t count,
                   const Wave<std::uint32_t>& wanted, Wave<float>& u);
-    void (*pairs)(Keys& keys, std::uint32_t reversed_index, std::size_t count, ChoicePairWave& u);
-    void (*choice_pairs)(Keys& keys, std::uint32_t reversed_index, std::size_t count, ChoicePairWave& u);
+    Pairs pairs, choice_pairs, partner_pairs;
     const char* name;  // "AVX2"
   };
 
@@ -47,13 +51,15 @@ class SamplerWave {
   void draw_pairs(std::size_t count, ChoicePairWave& u);
   /// Sampler::next_choice_pair()
   void draw_choice_pairs(std::size_t count, ChoicePairWave& u);
+  /// Sampler::next_partner_pair()
+  void draw_partner_pairs(std::size_t count, ChoicePairWave& u);
 
  private:
+  Draws::Keys keys_;               // with Sequence::sobol
+  std::vector<Sampler> samplers_;  // else; of all lanes, once there is one
   Draws draws_;
   Sequence sequence_ = Sequence::sobol;
   std::uint32_t reversed_index_ = 0;
-  Wave<std::uint64_t> keys_;       // with Sequence::sobol
-  std::vector<Sampler> samplers_;  // else; of all lanes, once there is one
 };
 
 /// Those that this machine can run, the fastest first. All draw the same numbers, bit for bit.

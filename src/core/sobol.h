@@ -43,6 +43,29 @@ namespace lemma {
   return index ^ (index >> 16);
 }
 
+/// The index, within the (0, 2)-sequence, of the pair that together with the pair of `index` is a point of a
+/// (0, 4)-sequence of base 4: of the 4^m points from a multiple of 4^m on, each elementary box of base 4 and
+/// volume 4^-m holds one. Its matrices are Faure's, C(j, i) b^(j-i) with b = 0, 1, w, w + 1, the numbers of
+/// GF(4): 0 for x of `index`, w, which is this function, for x of its partner, and one more for the y of
+/// each by pascal_digits(), whose steps within digits of base 4 leave boxes as they are and make each pair
+/// a (0, 2)-sequence. A digit is a + b w, two bits, with w^2 = w + 1. Digit i is the sum of w^(j-i) times
+/// digit j over the j whose bits are a superset of those of i (Lucas): a step for each bit, by w, w^2,
+/// w^4 = w and w^8 = w^2.
+/// Sources: Faure, Acta Arithmetica 41, 1982; Niederreiter, Monatshefte fuer Mathematik 104, 1987, for powers
+/// of primes.
+[[nodiscard]] constexpr std::uint32_t partner_index(std::uint32_t index) {
+  constexpr auto times_w = [](std::uint32_t x) {
+    return ((x >> 1) & 0x55555555u) | (((x << 1) ^ x) & 0xAAAAAAAAu);
+  };
+  constexpr auto times_w2 = [](std::uint32_t x) {
+    return ((x ^ (x >> 1)) & 0x55555555u) | ((x << 1) & 0xAAAAAAAAu);
+  };
+  index ^= times_w(index >> 2) & 0x33333333u;
+  index ^= times_w2(index >> 4) & 0x0F0F0F0Fu;
+  index ^= times_w(index >> 8) & 0x00FF00FFu;
+  return index ^ times_w2(index >> 16);
+}
+
 // Point `index` of Sobol's (0, 2)-sequence in an order and with a scrambling of its own for each set of keys,
 // as two fractions of 2^32: scrambled_sobol() of shuffled_index(). The first N points are stratified for
 // every N; points of different keys are independent, so that pairs of dimensions may be padded. Source:

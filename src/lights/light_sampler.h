@@ -79,7 +79,7 @@ class LightWaveSampler {
   LightWaveSampler& operator=(const LightWaveSampler&) = delete;
   virtual ~LightWaveSampler() = default;
 
-  /// @param u  what LightSampler::sample() would draw, by Sampler::next_choice_pair() alone
+  /// @param u  what LightSampler::sample() would draw, by Sampler::next_partner_pair() alone
   virtual void sample_wave(const LightQueryWave& at, std::size_t count, const ChoicePairWave& u,
                            LightSampleWave& samples) const = 0;
 

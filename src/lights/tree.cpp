@@ -28,7 +28,7 @@ class TreeSampler final : public LightSampler, private LightWaveSampler {
       : emitters_(emitters), tree_(emitters, triangles), row_(tree_.row()), row_waves_(light_row_waves()) {}
 
   std::optional<LightSample> sample(const LightQuery& at, Sampler& random) const override {
-    return sample(at, random.next_choice_pair());
+    return sample(at, random.next_partner_pair());
   }
 
   const LightWaveSampler* waves() const override { return row_ ? this : nullptr; }

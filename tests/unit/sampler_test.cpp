@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -87,6 +88,110 @@ TEST(Sobol, IntegratesSmoothFunctionsBetter) {
     return std::pow(test::estimate(means).standard_error, 2);
   };
   EXPECT_LT(variance(Sequence::sobol), variance(Sequence::independent) / 50);
+}
+
+/// A pair and its partner, a point of four dimensions.
+std::array<float, 4> with_partner(Sampler& random) {
+  const Vec2 u = random.next_2d();
+  const auto [x, y] = random.next_partner_pair();
+  return {u.x, u.y, static_cast<float>(x), y};
+}
+
+/// The definition of a (0, m, 4)-net of base 4: each of the 4^m boxes of any shape 4^-a x 4^-b x 4^-c x 4^-d,
+/// a + b + c + d = m, holds exactly one of any aligned run of 4^m points.
+TEST(Sobol, PairsWithTheirPartnersAreNetsOfBaseFour) {
+  const auto cell = [](float u, int digits) { return static_cast<int>(std::ldexp(u, 2 * digits)); };
+  for (std::uint32_t pixel = 0; pixel < 3; ++pixel) {
+    for (int m = 1; m <= 4; ++m) {
+      const std::uint32_t count = 1u << (2 * m), first = 5 * count;
+      for (int a = 0; a <= m; ++a) {
+        for (int b = 0; a + b <= m; ++b) {
+          for (int c = 0; a + b + c <= m; ++c) {
+            std::set<std::array<int, 4>> boxes;
+            for (std::uint32_t i = first; i < first + count; ++i) {
+              Sampler random(7, pixel, i, Sequence::sobol);
+              const auto u = with_partner(random);
+              boxes.insert({cell(u[0], a), cell(u[1], b), cell(u[2], c), cell(u[3], m - a - b - c)});
+            }
+            ASSERT_EQ(boxes.size(), count) << "pixel " << pixel << " m " << m << ": " << a << b << c;
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Partners by themselves are as well spread as other pairs.
+TEST(Sobol, PartnersAreNetsOfBaseTwo) {
+  for (int m = 0; m <= 8; ++m) {
+    const std::uint32_t count = 1u << m, first = 3 * count;
+    for (int a = 0; a <= m; ++a) {
+      std::set<std::pair<int, int>> cells;
+      for (std::uint32_t i = first; i < first + count; ++i) {
+        Sampler random(7, 1, i, Sequence::sobol);
+        const auto u = with_partner(random);
+        cells.emplace(static_cast<int>(std::ldexp(u[2], a)), static_cast<int>(std::ldexp(u[3], m - a)));
+      }
+      ASSERT_EQ(cells.size(), count) << "m " << m << " a " << a;
+    }
+  }
+}
+
+/// Over its scramblings a point is uniform in four dimensions: chi-square over 4^4 boxes. False alarms: one
+/// in 10^4 for the three tests together.
+TEST(Sobol, PairsWithTheirPartnersAreUniformOverScramblings) {
+  constexpr int draws = 1 << 18, boxes = 256;
+  for (const std::uint32_t sample : {0u, 1u, 1000003u}) {
+    std::vector<int> counts(boxes);
+    for (std::uint32_t pixel = 0; pixel < draws; ++pixel) {
+      Sampler random(8, pixel, sample, Sequence::sobol);
+      std::size_t box = 0;
+      for (const float u : with_partner(random)) box = 4 * box + static_cast<std::size_t>(4 * u);
+      ++counts[box];
+    }
+    constexpr double expected = static_cast<double>(draws) / boxes;
+    double statistic = 0;
+    for (const int c : counts) statistic += (c - expected) * (c - expected) / expected;
+    EXPECT_GT(test::chi_square_tail(statistic, boxes - 1), 1e-4 / 3) << sample;
+  }
+}
+
+/// A second partner has an order of its own: 16 samples put it and the first into 16 (1 - (15/16)^16) = 10.3
+/// of the 4 x 4 cells of their x in the mean, and into 4 where both are of the same pair.
+TEST(Sobol, SecondPartnersAreIndependent) {
+  std::size_t cells_hit = 0;
+  constexpr std::uint32_t pixels = 100;
+  for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+    std::set<std::pair<int, int>> cells;
+    for (std::uint32_t i = 0; i < 16; ++i) {
+      Sampler random(11, pixel, i, Sequence::sobol);
+      const float first = with_partner(random)[2];
+      const auto second = static_cast<float>(random.next_partner_pair().x);
+      cells.emplace(static_cast<int>(4 * first), static_cast<int>(4 * second));
+    }
+    cells_hit += cells.size();
+  }
+  EXPECT_GT(cells_hit, 8 * pixels);
+}
+
+/// What a pair and its partner do to each other is integrated better than by two pairs that know nothing of
+/// each other: variance at 256 samples.
+TEST(Sobol, PartnersIntegrateInteractionsBetter) {
+  const auto variance = [](bool partners) {
+    std::vector<double> means;
+    for (std::uint32_t pixel = 0; pixel < 200; ++pixel) {
+      double sum = 0;
+      for (std::uint32_t i = 0; i < 256; ++i) {
+        Sampler random(9, pixel, i, Sequence::sobol);
+        const Vec2 u = random.next_2d();
+        const auto [x, y] = partners ? random.next_partner_pair() : random.next_choice_pair();
+        sum += std::exp(-u.x * x) * std::cos(u.y + 2 * y);
+      }
+      means.push_back(sum / 256);
+    }
+    return std::pow(test::estimate(means).standard_error, 2);
+  };
+  EXPECT_LT(variance(true), variance(false) / 10);
 }
 
 TEST(Sobol, NumbersDependOnSeedPixelSampleAndDraw) {

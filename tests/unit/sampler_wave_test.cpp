@@ -7,6 +7,19 @@ namespace {
 
 constexpr std::size_t kSomeCounts[] = {1, 15, 16, 17, kWaveSize};
 
+/// Partners, and those of partners, of the pairs drawn last.
+void expect_partners(SamplerWave& wave, std::vector<Sampler>& single, std::size_t count) {
+  ChoicePairWave pairs;
+  for (int draw = 0; draw < 2; ++draw) {
+    wave.draw_partner_pairs(count, pairs);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Sampler::ChoicePair pair = single[i].next_partner_pair();
+      ASSERT_EQ(pairs.x[i], pair.x);
+      ASSERT_EQ(pairs.y[i], pair.y);
+    }
+  }
+}
+
 /// Draws of every kind, some lanes left out or none, against samplers by themselves.
 void expect_draws_of_samplers(SamplerWave& wave, Sequence sequence, std::size_t count) {
   std::vector<Sampler> single;
@@ -25,6 +38,7 @@ void expect_draws_of_samplers(SamplerWave& wave, Sequence sequence, std::size_t 
       ASSERT_EQ(pairs.y[i], pair.y);
       wanted[i] = i % 3 == 0 ? 1 : 0;
     }
+    expect_partners(wave, single, count);
     wave.draw(count, wanted, u);
     for (std::size_t i = 0; i < count; i += 3) ASSERT_EQ(u[i], single[i].next());
     wave.draw_choice_pairs(count, pairs);
@@ -39,6 +53,7 @@ void expect_draws_of_samplers(SamplerWave& wave, Sequence sequence, std::size_t 
     for (std::size_t k = 0; k < kept.count(); ++k) single[k] = single[kept[k]];
     count = kept.count();
     wave.keep(kept);
+    if (round == 1) expect_partners(wave, single, count);  // of pairs from before lanes were left out
   }
   Sampler last = wave[count - 1];
   ASSERT_EQ(last.next(), single[count - 1].next());
