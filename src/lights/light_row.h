@@ -44,7 +44,8 @@ struct LightRowScratch {
   Wave<std::uint32_t> half;
   VecWave half_v0, half_v1, half_v2;
   Wave<double> area_density;
-  VecWave v0, v1, v2;  // the emitter
+  VecWave v0, v1, v2;                     // the emitter
+  bool has_lobes[kWaveSize / kWaveStep];  // of each step: whether a lane reflects by one
   // Not 0: the lane is not done, but for single points to do.
   Wave<std::uint32_t> undone;
 };

@@ -32,12 +32,13 @@ using Scratch = LightRowScratch;
   return {v0[i], v1[i], v2[i]};
 }
 
-/// Whether a lane of the step from `begin` on reflects by a lobe; else weights without one have the same
-/// bits.
-bool has_lobes(const LightQueryWave& at, std::size_t begin) {
-  std::uint32_t lobes = 0;
-  for (std::size_t i = begin; i < begin + kWaveStep; ++i) lobes |= at.peak[i] != 0 ? 1u : 0u;
-  return lobes != 0;
+/// Where no lane of a step reflects by a lobe, weights without one have the same bits.
+void find_lobes(const LightQueryWave& at, std::size_t end, Scratch& s) {
+  for (std::size_t begin = 0; begin < end; begin += kWaveStep) {
+    std::uint32_t lobes = 0;
+    for (std::size_t i = begin; i < begin + kWaveStep; ++i) lobes |= at.peak[i] != 0 ? 1u : 0u;
+    s.has_lobes[begin / kWaveStep] = lobes != 0;
+  }
 }
 
 template <bool kLobes>
@@ -53,17 +54,17 @@ void weigh_whole_step(const WholeOutline& outline, const LightQueryWave& at, std
   }
 }
 
-void weigh_whole(const LightRow::Light& light, const LightQueryWave& at, std::size_t end,
-                 Wave<double>& weights, Wave<std::uint32_t>& undone) {
+void weigh_whole(const LightRow::Light& light, const LightQueryWave& at, std::size_t end, Scratch& s,
+                 Wave<double>& weights) {
   for (std::size_t begin = 0; begin < end; begin += kWaveStep) {
-    const auto weigh_step = has_lobes(at, begin) ? weigh_whole_step<true> : weigh_whole_step<false>;
-    weigh_step(light.outline, at, begin, weights, undone);
+    const auto weigh_step = s.has_lobes[begin / kWaveStep] ? weigh_whole_step<true> : weigh_whole_step<false>;
+    weigh_step(light.outline, at, begin, weights, s.undone);
   }
 }
 
 /// As LightTree::importance().
-void weigh_quad(const LightRow::Light& light, const LightQueryWave& at, std::size_t end,
-                Wave<double>& weights, Wave<std::uint32_t>& undone) {
+void weigh_quad(const LightRow::Light& light, const LightQueryWave& at, std::size_t end, Scratch& s,
+                Wave<double>& weights) {
   const EmitterView view = light.quad->view();
   const LightImportance importance = light.importance;
 #pragma GCC ivdep
@@ -73,7 +74,7 @@ void weigh_quad(const LightRow::Light& light, const LightQueryWave& at, std::siz
     const float reflected = importance.reflected(x, reflection);
     weights[i] =
         view.far_importance(x, at.n[i]) * double{reflection.peak == 0 ? reflection.diffuse : reflected};
-    undone[i] |= view.is_far(x) ? 0u : 1u;
+    s.undone[i] |= view.is_far(x) ? 0u : 1u;
   }
 }
 
@@ -88,9 +89,10 @@ void check_single(const LightRow::Light& light, const LightQueryWave& at, std::s
 void weigh(const LightRow& row, const LightQueryWave& at, std::size_t end, Scratch& s) {
   for (std::size_t i = 0; i < end; ++i) s.undone[i] = 0, s.sum[i] = 0;
   if (row.is_single) return check_single(row.lights.front(), at, end, s.undone);
+  find_lobes(at, end, s);
   for (std::size_t k = 0; k < row.lights.size(); ++k) {
     const auto weigh_light = row.lights[k].whole != nullptr ? weigh_whole : weigh_quad;
-    weigh_light(row.lights[k], at, end, s.weight[k], s.undone);
+    weigh_light(row.lights[k], at, end, s, s.weight[k]);
     for (std::size_t i = 0; i < end; ++i) s.sum[i] += s.weight[k][i];
   }
 }

@@ -48,11 +48,13 @@ Film::Film(int width, int height, std::uint32_t replicates)
   sums_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * cells_a_pixel());
 }
 
-void Film::join_halves(int x, int y) {
+void Film::join_halves(int x, int y, std::size_t width) {
   PixelSum* c = cells(x, y);
-  c[0] += c[1];
-  c[1] = c[2];
-  c[2] = {};
+  for (std::size_t i = 0; i < width; ++i, c += cells_a_pixel()) {
+    c[0] += c[1];
+    c[1] = c[2];
+    c[2] = {};
+  }
 }
 
 Image Film::image() const {

@@ -75,12 +75,24 @@ class Film {
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
 
-  /// Must be called for a pixel's samples in order, before the first of each index.
-  void prepare(int x, int y, std::uint32_t sample) {
+  /// Where the samples of one index go, of neighbouring pixels of a row.
+  class Run {
+   public:
+    Run(PixelSum* first, std::size_t stride) : first_(first), stride_(stride) {}
+    void add(std::size_t i, const Rgb& value) { first_[i * stride_].add(value); }
+
+   private:
+    PixelSum* first_;
+    std::size_t stride_;
+  };
+
+  /// Of the pixels from (x, y) to the right. Must be called for a pixel's samples in order, once for each
+  /// index.
+  [[nodiscard]] Run run(int x, int y, std::size_t width, std::uint32_t sample) {
     const bool is_power_of_two = (sample & (sample - 1)) == 0;  // std::has_single_bit is a call
-    if (replicates_ == 1 && sample >= 4 && is_power_of_two) join_halves(x, y);
+    if (replicates_ == 1 && sample >= 4 && is_power_of_two) join_halves(x, y, width);
+    return {cells(x, y) + cell_of(sample), cells_a_pixel()};
   }
-  void add(int x, int y, std::uint32_t sample, const Rgb& value) { cells(x, y)[cell_of(sample)].add(value); }
 
   [[nodiscard]] Image image() const;
 
@@ -92,8 +104,8 @@ class Film {
   [[nodiscard]] std::uint32_t parts() const { return replicates_ > 1 ? replicates_ : 2; }
 
  private:
-  /// Both halves become the first one.
-  void join_halves(int x, int y);
+  /// Both halves become the first one, in the pixels of a run.
+  void join_halves(int x, int y, std::size_t width);
 
   /// With one replicate: S samples, S samples and the next up to 2 S, for a power of two S.
   static constexpr std::uint32_t kHalvingCells = 3;

@@ -31,7 +31,7 @@ class TileSamples {
       rows_.emplace_back(camera, settings, tile.x, tile.y + static_cast<int>(row), width_, lane_of(row));
       for (std::size_t i = 0; i < kWaveStep; ++i) {
         const float t_max = i < width_ ? std::numeric_limits<float>::infinity() : 0;  // no ray
-        rays_.set(lane_of(row) + i, {camera.eye(), {}, 0, t_max});
+        rays_.set(lane_of(row) + i, {camera.eye(), Vec3(0), 0, t_max});
       }
     }
   }
@@ -59,14 +59,13 @@ class TileSamples {
 
   void add(std::size_t row, std::uint32_t sample) {
     const int y = tile_.y + static_cast<int>(row);
+    Film::Run pixels = film_.run(tile_.x, y, width_, sample);
     for (std::size_t i = 0; i < width_; ++i) {
-      const int x = tile_.x + static_cast<int>(i);
       const Rgb value = radiance_[lane_of(row) + i];
-      film_.prepare(x, y, sample);
       if (is_radiance(value)) {
-        film_.add(x, y, sample, value);
+        pixels.add(i, value);
       } else {
-        report_invalid({x, y, sample, value});
+        report_invalid({tile_.x + static_cast<int>(i), y, sample, value});
       }
     }
   }

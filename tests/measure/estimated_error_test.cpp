@@ -123,7 +123,7 @@ TEST(EstimatedError, IntervalsCoverAtTheirRateWithHeavyTails) {
         Sampler random(seed, pixel, 0);
         for (std::uint32_t i = 0; i < kSamples; ++i) {
           const auto x = static_cast<float>(d.sample(random, pixel));
-          film.add(static_cast<int>(pixel) % kEdge, static_cast<int>(pixel) / kEdge, i, {x, x, x});
+          film.run(static_cast<int>(pixel) % kEdge, static_cast<int>(pixel) / kEdge, 1, i).add(0, {x, x, x});
         }
       }
       const Interval rmse = estimated_error(film.image(), film.variance()).rmse;

@@ -14,10 +14,8 @@ namespace {
 /// A film of one pixel with these samples.
 Film film_of(const std::vector<float>& samples, std::uint32_t replicates) {
   Film film(1, 1, replicates);
-  for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    film.prepare(0, 0, i);
-    film.add(0, 0, i, {samples[i], 2 * samples[i], 0});
-  }
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+    film.run(0, 0, 1, i).add(0, {samples[i], 2 * samples[i], 0});
   return film;
 }
 
