@@ -87,6 +87,7 @@ def errors_table(configurations):
 
 
 MARK = " \N{DAGGER}"
+FEWEST_TESTED = 16  # samples a pixel from which equal means are tested: 4 of a noisy light sampling were called different
 
 
 def mark_of(figures):
@@ -102,16 +103,22 @@ def footnote(configurations, seeds):
             f"that of an earlier point: {escape(', '.join(early))}.</p>")
 
 
+def mean_verdict(figures):
+    """Whether the image shown could have the mean of the reference: a cell."""
+    if not figures["views"]:
+        return "-"
+    if figures["viewed_spp"] < FEWEST_TESTED:
+        return f"too few samples: {figures['viewed_spp']}"
+    return ("different", "bad") if figures["views"]["statistical"]["different"] else ("agrees", "good")
+
+
 def efficiency_table(configurations, seconds, relative_to):
     head = ["configuration", f"efficiency / {relative_to}", "the same by CPU time", f"FLIP at {seconds:g} s", "mean against the reference"]
     rows = []
     for name, f in configurations.items():
         views = f["views"]
-        agrees = "-"
-        if views:
-            agrees = ("different", "bad") if views["statistical"]["different"] else ("agrees", "good")
         rows.append([name + mark_of(f), interval(f["efficiency_ratio"]), interval(f["cpu_efficiency_ratio"]),
-                     f"{views['flip']:.3g}" if views else "-", agrees])
+                     f"{views['flip']:.3g}" if views else "-", mean_verdict(f)])
     return table(head, rows)
 
 
@@ -145,8 +152,8 @@ def viewer(scene, name, configurations, reference):
 
 HOW_TO_READ = """<p class="note">In brackets: 95 % confidence over seeds. Efficiency: 1 / (relMSE x seconds) at the last measured
 point of each run, paired by seed. By CPU time: of all threads, in which other work on the machine does not count. FLIP: the difference that an eye
-sees when both images are flipped, from 0 to 1. The mean against the reference: lemma compare --statistical; with few samples a
-pixel values are far from normal, and its alarms more than stated. FLIP, this test and the images are of the first seed. Slope: of the root of relMSE
+sees when both images are flipped, from 0 to 1. The mean against the reference: lemma compare --statistical, from 16 samples a
+pixel on; with few, values are far from normal, and its alarms more than stated. FLIP, this test and the images are of the first seed. Slope: of the root of relMSE
 over samples; independent samples have -0.5. Rare bright samples hold much of relMSE in some
 scenes: a run's error rises where it meets one. The verdict: by the value of the best one's advantage; NOT within 10 % only where all of its interval lies
 above 1.1, else undecided. A run that ends up to a fifth before a time counts there with its last error; - where a run did not

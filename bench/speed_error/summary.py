@@ -185,5 +185,6 @@ def summarize(renderings, references, effort, relative_to):
                 "samples_per_second": estimates.geometric_mean(
                     [f["camera_samples_per_second"] for f in found]).value,
                 "views": next((f["views"] for f in found if "views" in f), None),
+                "viewed_spp": next((f["error_curve"][-1]["spp"] for f in all_points[name] if "views" in f), None),
             } for name, found in by_configuration.items()}
     return scenes

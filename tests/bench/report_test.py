@@ -209,6 +209,12 @@ class ReportTest(unittest.TestCase):
         self.assertIn("1 faults", cells)
         self.assertEqual([p.text for p in self.find("p.verdict")], 2 * ["The default is the most efficient, by CPU time."])
 
+    def test_few_samples_have_no_verdict(self):
+        views = {"statistical": {"different": True}}
+        self.assertEqual(report.mean_verdict({"views": views, "viewed_spp": 15}), "too few samples: 15")
+        self.assertEqual(report.mean_verdict({"views": views, "viewed_spp": 16}), ("different", "bad"))
+        self.assertEqual(report.mean_verdict({"views": None, "viewed_spp": None}), "-")
+
     def test_printed_page(self):
         """A sheet of paper shows all images with their signed errors, no controls, and nothing is cut off at its edge."""
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
